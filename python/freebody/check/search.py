@@ -280,7 +280,7 @@ class Search:
             rates = [*(n for n in known.letters if known.dimension(n) == _SPIN), *(Sym(n.name, 1) for n in known.angular)]
             angles += [n for n in rates if n.key in self.values and self.values[n.key].ndim == 1]
         angles.sort(key=lambda n: n not in {*known.parameters, *known.letters})
-        first = {n: next(one for one in angles if self._are_one(one, n)) for n in angles}
+        first = {n: next((one for one in angles if self._are_one(one, n)), n) for n in angles}  # where it has no value, itself
         return {n: one for n, one in first.items() if one != n}
 
     def _are_one(self, one: Sym, other: Sym) -> bool:

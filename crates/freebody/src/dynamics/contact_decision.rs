@@ -1,7 +1,8 @@
 //! What was decided about contacts that are closed, and what of it was a close thing.
 
-use crate::contact::complementarity::{Answer, FrictionLaw, Problem, Status};
+use crate::contact::complementarity::{inside, Answer, FrictionLaw, Problem, Status};
 use crate::mode::ContactMode;
+use crate::solve::Matrix;
 
 /// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
 pub(super) const CLOSE: f64 = 1e-8;
@@ -12,14 +13,24 @@ pub struct ContactDecision {
     pub modes: Vec<ContactMode>,
     /// Of each whether something that decides was too small to be sure of.
     pub doubtful: Vec<bool>,
-    /// Part of its normal force that is the friction of each.
-    pub friction_ratios: Vec<f64>,
+    /// By which forces, free accelerations and laws of friction.
+    answer: Answer,
+    free: Vec<f64>,
+    friction: Vec<FrictionLaw>,
 }
 
 impl ContactDecision {
     /// Whether it was a close thing.
     pub fn is_doubtful(&self) -> bool {
         self.doubtful.contains(&true)
+    }
+
+    /// Part of its normal force that is the friction of each, of contacts that act on each other by `g`; well inside its cone
+    /// where they share it.
+    pub(super) fn friction_ratios(&self, g: &Matrix) -> impl Iterator<Item = f64> {
+        let problem = Problem { g, free: &self.free, friction: &self.friction };
+        let Answer { normal, tangent, .. } = inside(&problem, self.answer.clone());
+        normal.into_iter().zip(tangent).map(|(n, t)| if n > 0.0 { t / n } else { 0.0 })
     }
 
     /// Whether `next` decides something that is in doubt here. What is in doubt for ever, as a touch that others make
@@ -30,7 +41,7 @@ impl ContactDecision {
 }
 
 /// The modes of an answer, and whether it was a close thing.
-pub(super) fn decision(answer: &Answer, problem: &Problem, acceleration: f64) -> ContactDecision {
+pub(super) fn decision(answer: Answer, problem: &Problem, acceleration: f64) -> ContactDecision {
     let k = answer.status.len();
     let fastest = problem.free.iter().chain(&answer.acceleration).fold(acceleration, |most, x| most.max(x.abs()));
     let weak = |i: usize| answer.normal[i] * problem.g[(i, i)] <= CLOSE * fastest;
@@ -51,7 +62,7 @@ pub(super) fn decision(answer: &Answer, problem: &Problem, acceleration: f64) ->
         (Status::Slip(_), FrictionLaw::Resting { .. }) => weak(i) || slow(answer.acceleration[k + i]),
         _ => weak(i),
     };
-    let friction = answer.normal.iter().zip(&answer.tangent).map(|(n, t)| if *n > 0.0 { t / n } else { 0.0 }).collect();
     let (modes, doubtful) = ((0..k).map(mode).collect(), (0..k).map(close).collect());
-    ContactDecision { modes, doubtful, friction_ratios: friction }
+    let (free, friction) = (problem.free.to_vec(), problem.friction.to_vec());
+    ContactDecision { modes, doubtful, answer, free, friction }
 }

@@ -230,11 +230,11 @@ impl Workspace<'_> {
         let problem = Problem { g: &contacts.g, free: &free, friction: &friction };
         let solve = if scale.relaxed { complementarity::solve_relaxed } else { complementarity::solve };
         match solve(&problem) {
-            Verdict::Solved(answer) => Ok(decision(&answer, &problem, scale.acceleration)),
+            Verdict::Solved(answer) => Ok(decision(answer, &problem, scale.acceleration)),
             Verdict::Indeterminate(answers) if scale.prefer_rest => {
                 let sticks = |a: &&Answer| a.status.iter().filter(|s| **s == Status::Stick).count();
                 let most = answers.iter().rev().max_by_key(sticks).expect("several answers");
-                Ok(decision(most, &problem, scale.acceleration))
+                Ok(decision(most.clone(), &problem, scale.acceleration))
             }
             verdict => Err(self.painleve_error(contacts, &free, &friction, &verdict)),
         }
@@ -289,8 +289,8 @@ impl Workspace<'_> {
     }
 
     /// The mode decided. Of unilateral constraints that stick, though others that slide keep them from it, as many as
-    /// there are forces too many for the motions that are excluded keep the friction that they have now. What holds
-    /// them does not say how much.
+    /// there are forces too many for the motions that are excluded keep part of their normal force as friction, well inside
+    /// its bounds. What holds them does not say how much.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
@@ -300,15 +300,13 @@ impl Workspace<'_> {
         decision: &ContactDecision,
     ) -> Result<Mode, DynamicsError> {
         let mut mode = contacts.decided(decision);
-        let sticking = |(&l, &friction): (&usize, &f64)| {
-            Some((l, friction)).filter(|_| mode.contacts[l].mode == ContactMode::Stick)
-        };
-        let sticking: Vec<(usize, f64)> =
-            contacts.constraints.iter().zip(&decision.friction_ratios).filter_map(sticking).collect();
         self.enter(&mode);
-        if self.solve_motion().is_ok() || sticking.is_empty() {
+        if self.solve_motion().is_ok() || !decision.modes.contains(&ContactMode::Stick) {
             return Ok(mode);
         }
+        let ratios = contacts.constraints.iter().copied().zip(decision.friction_ratios(&contacts.g));
+        let sticking: Vec<(usize, f64)> =
+            ratios.filter(|&(l, _)| mode.contacts[l].mode == ContactMode::Stick).collect();
         for &(l, friction) in &sticking {
             mode.contacts_mut()[l].mode = ContactMode::PartialFriction(friction);
         }

@@ -19,7 +19,7 @@ const GRAZE: f64 = 1e-9;
 const ONE_GAP: f64 = 1e-10;
 /// Distance, over the characteristic length, up to which two corners meet, whichever of them tells it.
 const MEET: f64 = 1e-9;
-/// Gap, over the characteristic length, below which the small offsets of its formula, as of sides that are set back, may count.
+/// Gap, over the size of the mechanism or the reach of its bodies, below which the small offsets of its formula, as of sides that are set back, may count.
 const AS_GOOD_AS_CLOSED: f64 = 1e-6;
 /// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
 const CLEARLY_APART: f64 = 0.1;
@@ -240,9 +240,10 @@ impl Workspace<'_> {
         let constraint = &self.m.unilateral[l];
         let (ends, reaches) = (self.m.groups[constraint.group].ends, self.reaches[constraint.group]);
         let way: f64 = ends.iter().zip(reaches).map(|(&body, reach)| travel.way_within(body, reach)).sum();
+        let size = reaches.into_iter().filter(|reach| reach.is_finite()).fold(self.length, f64::max);
         matches!(&constraint.gap, Gap::ContactPair(touch) if touch.is_a_distance())
             && constraint.soft.is_none()
-            && gap > 2.0 * way + AS_GOOD_AS_CLOSED * self.length
+            && gap > 2.0 * way + AS_GOOD_AS_CLOSED * size
     }
 
     /// The present mode with the present features of all open unilateral constraints, those apart left as they were;

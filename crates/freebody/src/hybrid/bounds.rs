@@ -90,6 +90,9 @@ impl HybridSystem<'_> {
     /// The switching functions that may come to zero in a step at whose start they have the values `here`: all but those of open
     /// contacts whose gap is wider than their bodies can cross in the step.
     pub(super) fn near_zero(&mut self, on: &Segment, here: &[f64]) -> Vec<usize> {
+        if !self.mode.contacts.iter().any(|contact| contact.mode == ContactMode::Open) {
+            return (0..here.len()).collect();
+        }
         self.follow(on);
         let stays = |(i, function): &(usize, &SwitchingFunction)| match function {
             SwitchingFunction::Contact(l, guard) if self.mode.contacts[*l].mode == ContactMode::Open => {

@@ -82,7 +82,11 @@ impl HybridSystem<'_> {
         let held =
             |each: &Passing| Ended { constraint: each.constraint, held: self.held(each, fastest), speed: each.speed };
         instant.ended.extend(over.iter().map(held));
-        let at_rest = |mode: Mode, ended: &Ended| mode.with_contacts(&[ended.constraint], ended.held);
+        let at_rest = |mode: Mode, ended: &Ended| match ended.held {
+            // Its friction holds, too, by now.
+            ContactMode::Frictionless if mode.contacts[ended.constraint].mode.sticks() => mode,
+            held => mode.with_contacts(&[ended.constraint], held),
+        };
         let (mode, earlier) = (instant.ended.iter().fold(mode.clone(), at_rest), y.to_vec());
         let ends = over.iter().filter(|each| each.slides).map(|each| each.speed);
         let most = rates().map(|(l, rate)| rate * self.workspace.lever(l)).chain(ends).fold(0.0, f64::max);

@@ -135,12 +135,13 @@ impl EventDetector {
         if self.is_clear {
             return Ok(vec![]);
         }
+        // First, while the solution of the rate at the end is there.
+        let mut end = vec![0.0; self.memory.len()];
+        system.switch_values(on.t1, on.end(), &mut end)?;
         let watched = match &here {
             Some(here) => system.watched(on, here),
             None => (0..self.memory.len()).collect(),
         };
-        let mut end = vec![0.0; self.memory.len()];
-        system.switch_values(on.t1, on.end(), &mut end)?;
         let (of_forces, others): (Vec<usize>, Vec<usize>) = watched.iter().partition(|&&i| system.switch(i).of_forces);
         let mut probe = Probe::new(system, on, &of_forces);
         probe.know(on.t1, &end);
@@ -247,12 +248,8 @@ impl EventDetector {
             let may_touch = place.reach > near;
             let unsure = |turn: &Node, t: f64| {
                 let part = turn.value.abs() / place.reach;
-                (memory.doubt > 0.0 && part <= memory.doubt).then_some(Unresolved {
-                    t,
-                    index: i,
-                    doubt: Doubt::Acts,
-                    rtol: part / DOUBT,
-                })
+                let unsure = Unresolved { t, index: i, doubt: Doubt::Acts, rtol: part / DOUBT };
+                (memory.doubt > 0.0 && part <= memory.doubt).then_some(unsure)
             };
             if node.is_extremum {
                 self.unresolved.extend(unsure(&node, node.t));

@@ -133,7 +133,7 @@ fn modes(block: &LcpBlock, variables: &[Variable], basic: &[bool], slack: &[f64]
             BlockFriction::Law(FrictionLaw::Rough) => Tangent::Stick,
             BlockFriction::Law(FrictionLaw::Resting { .. }) => {
                 match (is_basic(Variable::Speed(i)), is_basic(up), is_basic(down)) {
-                    (false, false, false) => Tangent::PartialFriction,
+                    (false, false, false) => Tangent::PartialFriction(0.0),
                     (false, _, _) | (true, true, true) => Tangent::Stick,
                     (true, true, false) => Tangent::Slip(-1.0),
                     (true, false, true) => Tangent::Slip(1.0),

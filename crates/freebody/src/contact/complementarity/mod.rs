@@ -99,8 +99,8 @@ pub enum Status {
 
 /// Forces and accelerations that satisfy all conditions.
 ///
-/// The answer is basic: the forces that are neither zero nor on the edge of their friction cone are
-/// independent. Redundant contacts share the load in one of many ways; those that carry nothing are open.
+/// The answer is basic: the forces are independent but for those that are zero, on the edge of their friction cone, or friction that
+/// is a given part of a normal force. Redundant contacts share the load in one of many ways; those that carry nothing are open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// k: what each contact does.
@@ -136,6 +136,21 @@ pub enum Verdict {
 pub fn solve(problem: &Problem) -> Verdict {
     let k = problem.friction.len();
     resolve(problem.g, problem.free, problem.friction, &vec![0.0; k], &lcp_block::EXACT)
+}
+
+/// The answer with the friction that contacts share, without being determined, well inside its cones: on the edge it gives way at
+/// once. What each contact does stays as it is, and so does all where that is no answer.
+pub fn inside(problem: &Problem, mut answer: Answer) -> Answer {
+    let Problem { g, free, friction } = *problem;
+    for group in lcp_block::groups(g) {
+        let block = LcpBlock::new(g, free, friction, &vec![0.0; friction.len()], &group);
+        let status: Vec<Status> = group.iter().map(|&i| answer.status[i]).collect();
+        let modes: Vec<modes::Mode> = status.iter().map(|&does| modes::Mode::of(does)).collect();
+        let basic = |&tolerance: &f64| modes::basic(&block, &modes, false, tolerance).ok();
+        let found = block.tolerances.iter().find_map(basic).filter(|found| found.status == status);
+        found.iter().for_each(|found| block.write(found, &mut answer));
+    }
+    answer
 }
 
 /// As [`solve`], where accelerations may contradict each other by a little: those of contacts that are almost one, as

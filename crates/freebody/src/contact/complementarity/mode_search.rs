@@ -174,7 +174,7 @@ fn vertex(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Option<Found> {
     let mut result = evaluate(block, modes, tolerance);
     let is_singular = matches!(result, Err(Refusal::Singular));
     if is_singular && block.len() > ALWAYS {
-        result = basic(block, modes, tolerance);
+        result = basic(block, modes, true, tolerance);
     }
     if result.is_err() && is_singular && block.len() <= ENUMERABLE {
         let lists: Vec<Vec<Mode>> = modes.iter().zip(&block.friction).map(|(m, h)| vertices(*h, *m)).collect();

@@ -17,6 +17,17 @@ pub(super) struct Mode {
 
 impl Mode {
     pub const OPEN: Mode = Mode { closed: false, tangent: Tangent::Free };
+
+    /// That of a contact without a least normal force that does this.
+    pub fn of(status: Status) -> Mode {
+        let closed = |tangent| Mode { closed: true, tangent };
+        match status {
+            Status::Open => Mode::OPEN,
+            Status::Closed => closed(Tangent::Free),
+            Status::Stick => closed(Tangent::Stick),
+            Status::Slip(sense) => closed(Tangent::Slip(sense)),
+        }
+    }
 }
 
 /// What a contact is supposed to do along its tangent.
@@ -28,10 +39,8 @@ pub(super) enum Tangent {
     Slip(f64),
     /// aT = 0 by a force λT.
     Stick,
-    /// aT = 0 with λT = 0: held by other contacts.
-    PartialFriction,
-    /// aT = 0 with λT = −μ s λN: held by other contacts, on the edge of the cone.
-    Impending(f64),
+    /// aT = 0 with λT this part of λN: held by other contacts.
+    PartialFriction(f64),
 }
 
 /// Why modes give no finding.
@@ -71,9 +80,10 @@ pub(super) fn evaluate(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Resu
     Check::new(block, modes, &force, tolerance).verdict().ok_or(Refusal::Violated)
 }
 
-/// As [`evaluate`], for modes whose equations do not determine the forces: from forces well inside their bounds on
-/// along self-stresses, each to the next bound that a contact reaches, until what is left is determined.
-pub(super) fn basic(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Result<Found, Refusal> {
+/// As [`evaluate`], for modes whose equations do not determine the forces. Of forces well inside their bounds the contact that is
+/// nearest to one of its own, along a self-stress, opens, where it `may_open`, or keeps its friction as part of its normal force, until
+/// what is left is determined: friction on the edge of its cone would hold no longer than the moment.
+pub(super) fn basic(block: &LcpBlock, modes: &[Mode], may_open: bool, tolerance: f64) -> Result<Found, Refusal> {
     let mut modes = modes.to_vec();
     for _ in 0..=3 * modes.len() {
         let Equations { columns, missing, a, force } = Equations::new(block, &modes);
@@ -91,29 +101,38 @@ pub(super) fn basic(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Result<
         let nothing = vec![0.0; force.len()];
         let along = |j: usize| margins(block, &modes, &wrenches(factors.x().row(rank + j), nothing.clone()));
         let by: Vec<Vec<(usize, Bound, f64)>> = (0..n - rank).map(along).collect();
-        let mut now = margins(block, &modes, &wrenches(&x, force));
-        now.iter_mut().filter(|m| m.1 == Bound::LeastNormal).for_each(|m| m.2 -= block.least_normal[m.0]);
-        let least: Vec<f64> = now.iter().map(|m| m.2).collect();
-        let (share, most) = keep_above(&Matrix::from_fn(now.len(), by.len(), |i, j| by[j][i].2), &least, 1.0);
+        let inside = |force: &[f64]| {
+            let mut all = margins(block, &modes, force);
+            all.iter_mut().filter(|m| m.1 == Bound::LeastNormal).for_each(|m| m.2 -= block.least_normal[m.0]);
+            all
+        };
+        let least: Vec<f64> = inside(&wrenches(&x, force.clone())).iter().map(|m| m.2).collect();
+        let (share, most) = keep_above(&Matrix::from_fn(least.len(), by.len(), |i, j| by[j][i].2), &least, 1.0);
         if most < -tolerance {
             return Err(Refusal::Violated);
         }
-        now.iter_mut()
-            .enumerate()
-            .for_each(|(i, m)| m.2 += by.iter().zip(&share).map(|(by, s)| by[i].2 * s).sum::<f64>());
-        let ways = now.iter().zip(&by[0]).filter(|(_, by)| by.2.abs() > SINGULAR);
+        for (j, share) in share.iter().enumerate() {
+            x.iter_mut().zip(factors.x().row(rank + j)).for_each(|(x, along)| *x += share * along);
+        }
+        let force = wrenches(&x, force);
+        let now = inside(&force);
+        let is_way = |by: &(usize, Bound, f64)| by.2.abs() > SINGULAR && (may_open || by.1 != Bound::LeastNormal);
+        let ways = now.iter().zip(&by[0]).filter(|(_, by)| is_way(by));
         let next = ways.map(|(now, by)| (now.0, now.1, (now.2 / by.2).abs())).min_by(|a, b| a.2.total_cmp(&b.2));
         let Some((contact, bound, _)) = next else {
             // Friction without bound, of contacts that need it all the less.
             let friction = (0..n).find(|&j| columns[j].normal == 0.0 && factors.x()[(rank, j)].abs() > SINGULAR);
             let contact = columns[friction.ok_or(Refusal::Singular)?].contact;
-            modes[contact].tangent = Tangent::PartialFriction;
+            modes[contact].tangent = Tangent::PartialFriction(0.0);
             continue;
         };
         modes[contact] = match bound {
             Bound::LeastNormal if block.least_normal[contact] == 0.0 => Mode::OPEN,
             Bound::LeastNormal => Mode { closed: false, ..modes[contact] },
-            Bound::Cone(sense) => Mode { tangent: Tangent::Impending(sense), ..modes[contact] },
+            Bound::Cone(most) => {
+                let part = force[block.len() + contact] / force[contact].max(f64::MIN_POSITIVE);
+                Mode { tangent: Tangent::PartialFriction(part.clamp(-most, most)), ..modes[contact] }
+            }
         };
     }
     evaluate(block, &modes, tolerance)
@@ -124,7 +143,7 @@ pub(super) fn basic(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Result<
 enum Bound {
     /// The least normal force.
     LeastNormal,
-    /// The cone of friction, on the side where it resists sliding with this sense.
+    /// The cone of friction with this coefficient.
     Cone(f64),
 }
 
@@ -139,7 +158,7 @@ fn margins(block: &LcpBlock, modes: &[Mode], force: &[f64]) -> Vec<(usize, Bound
             (block.friction[i], mode.tangent)
         {
             let (most, friction) = (fixed * force[i], force[modes.len() + i]);
-            all.extend([(i, Bound::Cone(-1.0), most - friction), (i, Bound::Cone(1.0), most + friction)]);
+            all.extend([most - friction, most + friction].map(|margin| (i, Bound::Cone(fixed), margin)));
         }
     }
     all
@@ -173,7 +192,7 @@ impl Equations {
                 rows.push(i);
                 columns.push(Column { contact: i, normal: 1.0, tangent: ratio });
             }
-            if matches!(mode.tangent, Tangent::Stick | Tangent::PartialFriction | Tangent::Impending(_)) {
+            if matches!(mode.tangent, Tangent::Stick | Tangent::PartialFriction(_)) {
                 rows.push(n + i);
             }
             if mode.tangent == Tangent::Stick {
@@ -211,16 +230,14 @@ fn solved(a: &Matrix, b: &[f64]) -> Result<Vec<f64>, Refusal> {
 /// λT/λN where the mode fixes it, else 0.
 fn ratio(law: BlockFriction, tangent: Tangent) -> f64 {
     let sense = match tangent {
-        Tangent::Slip(s) | Tangent::Impending(s) => s,
-        Tangent::Free | Tangent::Stick | Tangent::PartialFriction => return 0.0,
+        Tangent::Slip(s) => s,
+        Tangent::PartialFriction(part) => return part,
+        Tangent::Free | Tangent::Stick => return 0.0,
     };
-    match (law, tangent) {
-        (BlockFriction::Law(FrictionLaw::Resting { fixed, .. }), Tangent::Impending(_)) => -fixed * sense,
-        (BlockFriction::Law(FrictionLaw::Resting { kinetic, .. } | FrictionLaw::Sliding { kinetic, .. }), _) => {
-            -kinetic * sense
-        }
-        (BlockFriction::Starting(_, kinetic), _) => -kinetic * sense,
-        (BlockFriction::Law(FrictionLaw::Frictionless | FrictionLaw::Rough), _) => 0.0,
+    match law {
+        BlockFriction::Law(FrictionLaw::Resting { kinetic, .. } | FrictionLaw::Sliding { kinetic, .. })
+        | BlockFriction::Starting(_, kinetic) => -kinetic * sense,
+        BlockFriction::Law(FrictionLaw::Frictionless | FrictionLaw::Rough) => 0.0,
     }
 }
 
@@ -307,7 +324,7 @@ impl<'a> Check<'a> {
                 BlockFriction::Law(FrictionLaw::Resting { .. }) | BlockFriction::Starting(..) if s * a < -noise => None,
                 _ => Some(Status::Slip(s)),
             },
-            Tangent::Stick | Tangent::PartialFriction | Tangent::Impending(_) => {
+            Tangent::Stick | Tangent::PartialFriction(_) => {
                 let bound = match law {
                     BlockFriction::Law(FrictionLaw::Resting { fixed, .. }) => fixed * self.force[i],
                     _ => f64::INFINITY,
@@ -338,10 +355,11 @@ pub(super) fn admissible(law: BlockFriction, least_normal: f64) -> Vec<Mode> {
 /// A mode and what can stand for it where its forces are not determined: the vertices of the set of forces.
 pub(super) fn vertices(law: BlockFriction, mode: Mode) -> Vec<Mode> {
     let tangents = match (mode.tangent, law) {
-        (Tangent::Stick, BlockFriction::Law(FrictionLaw::Resting { .. })) => {
-            vec![Tangent::Stick, Tangent::PartialFriction, Tangent::Impending(1.0), Tangent::Impending(-1.0)]
+        (Tangent::Stick, BlockFriction::Law(FrictionLaw::Resting { fixed, .. })) => {
+            let parts = [0.0, -fixed, fixed].map(Tangent::PartialFriction);
+            [Tangent::Stick].into_iter().chain(parts).collect()
         }
-        (Tangent::Stick, _) => vec![Tangent::Stick, Tangent::PartialFriction],
+        (Tangent::Stick, _) => vec![Tangent::Stick, Tangent::PartialFriction(0.0)],
         (tangent, _) => vec![tangent],
     };
     tangents.into_iter().map(|tangent| Mode { tangent, ..mode }).collect()

@@ -65,7 +65,8 @@ fn block_on_incline() {
     }
 }
 
-/// Redundant contacts carry a load by independent forces; the rest carry nothing.
+/// Redundant contacts carry a load by independent forces, none with all of its friction used up, as it needs not be; the rest carry
+/// nothing.
 #[test]
 fn redundant_touches_are_basic() {
     for k in 2..10 {
@@ -76,15 +77,30 @@ fn redundant_touches_are_basic() {
             let pull = if friction_law == FrictionLaw::Frictionless { 0.0 } else { 1.0 };
             let free = w.mul_vec(&[pull, -9.81, 0.1]);
             let a = solved(&Problem { g: &g, free: &free, friction: &vec![friction_law; k] });
-            // On the edge of its cone a contact has one force.
-            let edge =
-                |i: usize| friction_law == resting(0.4) && (a.tangent[i].abs() - 0.4 * a.normal[i]).abs() < 1e-12;
-            let count = |i: usize| usize::from(a.normal[i] != 0.0) + usize::from(a.tangent[i] != 0.0 && !edge(i));
+            let count = |i: usize| usize::from(a.normal[i] != 0.0) + usize::from(a.tangent[i] != 0.0);
             assert!((0..k).map(count).sum::<usize>() <= 3, "{a:?}");
+            let is_used_up = |i: usize| a.normal[i] > 0.0 && a.tangent[i].abs() > 0.39 * a.normal[i];
+            assert!(friction_law != resting(0.4) || !(0..k).any(is_used_up), "{a:?}");
             assert!(a.acceleration.iter().all(|a| a.abs() <= 1e-14), "{a:?}");
             assert!((a.normal.iter().sum::<f64>() - 9.81).abs() < 1e-12);
         }
     }
+}
+
+/// Friction of a box that two feet share without being determined is brought from the edge of a cone inside both.
+#[test]
+fn shared_friction_is_brought_inside_its_cones() {
+    let w = rows(&[touch(-1.0, -1.0, UP), touch(1.0, -1.0, UP)]);
+    let (g, free) = (delassus(&w, &[1.0, 1.0, 0.7]), w.mul_vec(&[1.0, -9.81, 0.1]));
+    let problem = Problem { g: &g, free: &free, friction: &[resting(0.4); 2] };
+    let mut edge = solved(&problem);
+    let all: f64 = edge.tangent.iter().sum();
+    let used_up = 0.4 * edge.normal[1] * all.signum();
+    edge.tangent = vec![all - used_up, used_up];
+    verify(&problem, &edge, 1e-12).expect("an answer, too");
+    let found = inside(&problem, edge);
+    verify(&problem, &found, 1e-12).expect("an answer");
+    assert!((0..2).all(|i| found.tangent[i].abs() < 0.3 * found.normal[i]), "{found:?}");
 }
 
 /// A stack of boxes of mass 1, each on two contacts: each pair carries the weight above it; if the

@@ -155,3 +155,19 @@ fn not_a_number() {
     assert_eq!(verdict(-1.0, FrictionLaw::Resting { fixed: 0.1, kinetic: 0.2 }), Verdict::Unknown);
     assert_eq!(verdict(-1.0, FrictionLaw::Sliding { sense: 0.0, kinetic: 0.2 }), Verdict::Unknown);
 }
+
+/// Friction that is brought inside its cones makes no contact do anything else.
+#[test]
+fn what_contacts_do_stays_as_friction_comes_inside() {
+    let (mut r, mut moved) = (Random(7), 0);
+    for _ in 0..5_000 {
+        let k = 3 + r.below(3);
+        let case = case(&mut r, k, any_grip);
+        let Verdict::Solved(edge) = verified(&case.problem(), 1e-9) else { continue };
+        let found = inside(&case.problem(), edge.clone());
+        verify(&case.problem(), &found, 1e-9).expect("an answer, too");
+        assert_eq!(found.status, edge.status, "{:?}", case.problem());
+        moved += usize::from(!agree(&found.tangent, &edge.tangent, 1e-9));
+    }
+    assert!(moved > 100, "{moved}");
+}
