@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 
 from .hypotheses import SMALL_MOTIONS
@@ -29,7 +33,7 @@ _LIMIT = re.compile(r"limit: ?(.+) as ([^:]+)", re.S)
 _REPEATS = "in the steady state"
 _STEADY = re.compile(rf"if ([^:]*\b{_REPEATS}\b[^:]*): ?([^:]+)", re.S)
 _MOST = re.compile(r"([^\W\d]\w*?)_\{?(?:\\(?:text|mathrm|operatorname)?\{?)?max\b")
-_TANGENT = re.compile(rf"\\?tan\s*[({{]?\s*({_SYMBOL})")
+_TANGENT = re.compile(rf"(?<![^\W_])\\?tan(?![A-Za-z])\s*(?:\\left\s*)?[({{]?\s*({_SYMBOL})")
 _NAME = "amp"
 """What it is called that has no letter of its own."""
 _WORDS = re.compile(r"\s*(?:(?:in|for|the|its|resulting|steady|state|motion|vibrations?|oscillations?)\b[\s,]*)*")
@@ -57,11 +61,11 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
     if not steady and not (limited and _REPEATS in limited[2]):
         return None
     conditions, statement = (steady[1], steady[2]) if steady else (limited[2], limited[1])
-    if lags := _lags(checker, declared, statement):
-        (of,) = {*lags.values()}
-        given = {**declared, **dict.fromkeys(lags, f"{LAG}{of}")}
+    if lag := _lag(checker, declared, statement):
+        letter, of = lag
         limits = conditions.replace(SMALL_MOTIONS, f"{of} -> 0") if limited else f"{_REPEATS}, {of} -> 0"
-        return checker.check(f"limit: {statement} as {limits}", given)
+        with suppress(StatementError, ModelProblem):  # of other letters, too
+            return checker.check(f"limit: {statement} as {limits}", {**declared, letter: f"{LAG}{of}"})
     named = _capitals(checker, declared, statement) | ({} if steady else _most(checker, declared, statement))
     given = {**declared, **{name: f"{AMPLITUDE}{of}" for name, of in named.items()}}
     return (_judged if steady else _in_limit)(checker, given, conditions, statement) if named else None
@@ -71,7 +75,7 @@ def _judged(checker: Checker, declared: Declared, conditions: str, statement: st
     """Of the steady state where that is said or something drives the model."""
     steady = _REPEATS in conditions or checker.sampler.is_driven
     under = ", ".join(filter(None, (_REPEATS if steady else "from the start", conditions.replace(_REPEATS, "").strip(" ,"))))
-    return _sized(checker, declared, f"if {under}: {{}}", statement)
+    return _sized(checker, declared, lambda said: f"if {under}: {said}", statement)
 
 
 def _in_limit(checker: Checker, declared: Declared, limits: str, statement: str) -> Verdict:
@@ -79,18 +83,18 @@ def _in_limit(checker: Checker, declared: Declared, limits: str, statement: str)
     steady = f"{_REPEATS}, " if checker.sampler.is_driven and _REPEATS not in limits else ""
     of = (said.removeprefix(AMPLITUDE) for said in declared.values() if isinstance(said, str) and said.startswith(AMPLITUDE))
     small = limits.replace(SMALL_MOTIONS, ", ".join(f"{each} -> 0" for each in of))
-    verdict = _sized(checker, declared, f"limit: {{}} as {steady}{small}", statement)
+    verdict = _sized(checker, declared, lambda said: f"limit: {said} as {steady}{small}", statement)
     return replace(verdict, reason=NO_AMPLITUDE) if verdict.kind is Kind.UNDECIDABLE else verdict
 
 
-def _sized(checker: Checker, declared: Declared, form: str, statement: str) -> Verdict:
+def _sized(checker: Checker, declared: Declared, claim: Callable[[str], str], statement: str) -> Verdict:
     """Of amplitudes the size is judged: a sign says how they follow what drives."""
-    verdict = checker.check(form.format(statement), declared)
+    verdict = checker.check(claim(statement), declared)
     said, *names = re.split(r"(?=\swhere\s)", statement, maxsplit=1)
     sides = said.split("=")
     if verdict.ok or len(sides) != 2:
         return verdict
-    sized = checker.check(form.format(f"abs({sides[0]}) = abs({sides[1]}){''.join(names)}"), declared, correcting=False)
+    sized = checker.check(claim(f"abs({sides[0]}) = abs({sides[1]}){''.join(names)}"), declared, correcting=False)
     return replace(sized, text=verdict.text) if sized.ok else verdict
 
 
@@ -119,12 +123,16 @@ def _capitals(checker: Checker, declared: Declared, statement: str) -> dict[str,
     return found
 
 
-def _lags(checker: Checker, declared: Declared, statement: str) -> dict[str, str]:
-    """The letter of an angle without a meaning of its own of which a tangent is taken, with the only coordinate that is free, if something drives it."""
+def _lag(checker: Checker, declared: Declared, statement: str) -> tuple[str, str] | None:
+    """The letter without a meaning of its own of which a tangent is taken: the angle, rad, by which the only coordinate that is free lags
+    behind what drives it; with that coordinate."""
     known, prescribed = checker.symbols(declared), {motion["of"] for motion in checker.sampler.spec["motions"]}
     names = [name for name in checker.sampler.names if name not in prescribed]
     found = {folded(name): name for name in _TANGENT.findall(statement) if known.spelt(name) is None}
-    return {name.removeprefix("\\"): names[0] for name in found.values()} if len(names) == 1 and checker.vibration.drive else {}
+    if len(names) != 1 or len(found) != 1 or not checker.vibration.drive:
+        return None
+    (letter,) = found.values()
+    return letter.removeprefix("\\"), names[0]
 
 
 def _most(checker: Checker, declared: Declared, statement: str) -> dict[str, str]:

@@ -39,6 +39,7 @@ _TO_MOMENT = 20_000  # of one up to a moment
 _MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
 _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
 _SOON = 1e-4  # of the time typical of the model: what starts with a speed has moved a hundred times as far as what starts without
+_SWITCH = re.compile(r"0(?:\.0*)?|-?1(?:\.0*)?")
 _NO_GAP = 1e-9  # of the size of the model, at which parts touch
 _STRIDE = 4.0  # by which a length grows from place to place on the way to where it is far larger
 _DEPENDENT = (
@@ -94,8 +95,7 @@ class AskedModel:
         own = [*self.spec["parameters"], *({"name": z["name"], "value": z["start"]} for z in self.spec["states"])]
         numbers = {p["name"]: p["value"] for p in own if isinstance(p["value"], int | float)}
         counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
-        units = self.start.parameters
-        counts |= {name for name in self.switched if units.get(name) in (None, NUMBER_ONLY)}  # on or off
+        counts |= {name for name in self.switched if self._is_on_or_off(name, numbers)}
         changed = {name: evaluate(value, {}) for name, value in self.changes.items() if name in self.start.parameters}
         self.free_parameters = {name: float(value) for name, value in (numbers | changed).items() if name not in counts}
         """Parameters and states that are plain numbers in the model, with those; the others follow from them, count items, or are on or off."""
@@ -106,11 +106,23 @@ class AskedModel:
         done = (action for event in self.spec["events"] for action in event["then"] if isinstance(action, dict))
         return [*dict.fromkeys(name for action in done for name in action.get("set", ()))]
 
+    def _is_on_or_off(self, name: str, numbers: Mapping[str, Any]) -> bool:
+        """Whether a parameter without a unit is a switch: it starts with, and events set it to, 0, 1 or −1 alone."""
+        done = (
+            action["set"]
+            for event in self.spec["events"]
+            for action in event["then"]
+            if isinstance(action, dict) and "set" in action
+        )
+        values = [str(numbers.get(name)), *(str(each[name]) for each in done if name in each)]
+        return self.start.parameters.get(name) in (None, NUMBER_ONLY) and all(map(_SWITCH.fullmatch, values))
+
     def bound(self, values: Mapping[str, float], state: State) -> Array:
-        """The parameters with other values, those that events set as they are in a state."""
+        """The parameters with other values; those that events have set by the moment as they are in a state."""
         p = self.core.bind(values)
         for k, given in enumerate(self.metadata["parameters"]):
-            p[k] = state.p[k] if given["name"] in self.switched else p[k]
+            if given["name"] in self.switched and self.own.p[k] != self.first.p[k]:
+                p[k] = state.p[k]
         return p
 
     def _parametrised_gravity(self) -> str | None:

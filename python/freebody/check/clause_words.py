@@ -98,7 +98,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
     (r"(?:if|where|for|with|without) (?!.*\b(?:kept|prevented)\b)[a-z'’ -]+ \(([^()]*(?:[=<>→]|->|\\to)[^()]*)\)", r"if \1"),
     (r"(?:once|when|after) (?:the )?\S+ (?:is|has become) (?:steady|constant)", "in the steady state"),
     (r"((?:when|at|once|while|after|with|without|for|if) [^()]*\([^()]*[=<>→][^()]*\)) [a-z]+ [^=<>→]*", r"\1"),
-    (r"where ([^=<>→]+ [^=<>→]+)", r"when \1"),
+    (r"where (?!.*\b(?:measured|counted|taken|denotes?|stands? for|means?)\b)([^=<>→]+ [^=<>→]+)", r"when \1"),
     (r"(.*[a-z]{3}) (?:at|when|where)(?: the (?:instant|time|moment))?", r"when \1"),
 )
 """Clauses in words of exercise books, and what is read for them."""

@@ -69,7 +69,7 @@ def _of_row(
     late: list[Correction] = []
     least = np.inf
     for step in steps:
-        if step is Search.other_terms and not case.sampler.moment:  # while there is time
+        if step is Search.other_terms and Search.pairs in steps and not case.sampler.moment:  # kept, if later there is no time
             late = _from_start(case, row, families, part, (Search.singles,))
         if step is Search.pairs:
             late = _from_start(case, row, families, part, (*_SINGLE, Search.together)) or late

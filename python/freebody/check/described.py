@@ -42,7 +42,7 @@ _OF_SPRING = {
 }
 """Of what the length of a spring is least or greatest."""
 _HEIGHT = re.compile(r"\b(?:highest|lowest|height|top|bottom)\b")
-_LEANS = re.compile(r"\b(?:lean|tilt|tip)(?:s|ing|ed)?\b.*\b(left|right)\b")
+_LEANS = re.compile(r"\b(?:lean(?:s|ing|ed|t)?|tilt(?:s|ing|ed)?|tip(?:s|ping|ped))\b.*\b(left|right)\b")
 _LETTER = 2  # characters that the name of a quantity has at most: longer ones may be words
 _STOPS = re.compile(
     r"\b(?:stops|stopped|comes? to (?:rest|a (?:stop|halt|standstill))|stands? still|(?:momentarily|instantaneously) at rest)\b"
@@ -83,14 +83,19 @@ def _mover(words: str, way: str, checker: Checker) -> str | None:
     """The body that moves one way by words: that which they name, else the only one that moves along there."""
     if (body := _body(words, checker)) or not _IT.search(words):
         return body
-    run, bodies = checker.happens.run, [body["name"] for body in checker.sampler.spec["bodies"]]
-    times = np.linspace(run.t[0], float(run.outcome.t), _LOOKS)[1:-1]
-    moves = lambda name: (
-        np.abs(run.evaluate(f"{_WAYS[way][0]}({quote(name)}.G)", times)).max()
-        > _STILL * checker.sampler.length * checker.sampler.rate
-    )
-    found = [name for name in bodies if moves(name)]
+    found = _moving(way, checker)
     return found[0] if len(found) == 1 else None
+
+
+def _moving(way: str, checker: Checker) -> list[str]:
+    """The bodies that move along a way, there or back, on the model's own run."""
+    run, bodies = checker.happens.run, [body["name"] for body in checker.sampler.spec["bodies"]]
+    times, still = (
+        np.linspace(run.t[0], float(run.outcome.t), _LOOKS)[1:-1],
+        _STILL * checker.sampler.length * checker.sampler.rate,
+    )
+    along = ((name, run.evaluate(f"{_WAYS[way][0]}({quote(name)}.G)", times)) for name in bodies)
+    return [name for name, speeds in along if np.abs(speeds).max() > still]
 
 
 def place_of(words: str, checker: Checker) -> str:
@@ -112,9 +117,11 @@ def place_of(words: str, checker: Checker) -> str:
 
 def _way(words: str, checker: Checker) -> Family | None:
     """Motions of a body one way, or of all of them."""
-    every = [body["name"] for body in checker.sampler.spec["bodies"]] if _ALL.search(words) else []
     way = _which_way(words)
-    bodies = (every or list(filter(None, [_mover(words, way, checker)]))) if way else []
+    if not way:
+        return None
+    every = _moving(way, checker) if _ALL.search(words) and _body(words, checker) is None else []
+    bodies = every or list(filter(None, [_mover(words, way, checker)]))
     if not bodies:
         return None
     moving = (f"{_WAYS[way][0]}({quote(body)}.G)" for body in bodies)

@@ -133,7 +133,8 @@ class FittedEdits:
         """Terms that should be quite other ones; the whole of what a letter is said to be only where parameters alone say that."""
         with np.errstate(all="ignore"):
             for required in self.within(required_terms(equation, self.values)):
-                side = next((s for s in (equation.left, equation.right) if required.node in (s, unsigned(s))), None)
+                sides = (s for s in (equation.left, equation.right) if any(n is required.node for n in (s, unsigned(s))))
+                side = next(sides, None)
                 other = equation.right if side is equation.left else equation.left
                 if not required.addend or (side is not None and not isinstance(unsigned(other), Sym)):
                     continue
@@ -287,10 +288,10 @@ class FittedEdits:
             plain = powered(node, rest, lacked) if min(lacked.values()) > 0 else None
             size = sum(map(abs, lacked.values())) + (abs(rest - 1) > _SAME)
             size += any(n > 0 and own.get(base) for base, n in lacked.items()) and min(lacked.values()) < 0  # r²/h for r/cos φ
-            if _is_share(lacked):
+            if rest == 1.0 and _is_share(lacked):
                 yield Edit.at(equation, "share", node, new)
                 return
-            if _is_share({base: -n for base, n in lacked.items()}):  # one mass for several
+            if rest == 1.0 and _is_share({base: -n for base, n in lacked.items()}):  # one mass for several
                 lost = next(base.terms for base, n in lacked.items() if n > 0 and isinstance(base, Add))
                 others = [mass for mass in lost if mass not in lacked]
                 yield Edit("missing term", None, Add(tuple(others)) if others[1:] else others[0], exchange(equation, node, new))

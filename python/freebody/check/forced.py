@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 _TIMES = np.array([0.13, 0.71, 1.6, 2.3, 3.7, 4.1, 5.9, 7.7])
 """When accelerations are looked at, in times typical of the model: at no even spacing, so that no harmonic is taken for another."""
 _HARMONIC = re.compile(r"\b(sin|cos)\(\s*[^\W\d]\w*\s*\*\s*t\s*\)")
-_SHIFTED = re.compile(r"\b(?:sin|cos)\([^()]*\bt\s*[-+]")
-"""``sin(Ω*t)``, and what is ahead of it or behind."""
+_OF_TIME = re.compile(r"\b(?:sin|cos)\([^()]*(?<![.\w])t(?![.\w])[^()]*\)")
+"""``sin(Ω*t)``, and any other that changes with time."""
 _PART = 1e-3  # of the drive, by which its slope is taken, to fourth order
 _PURE = 1e-8  # of the harmonic, that may be left beside it
 
@@ -50,17 +50,17 @@ def forced_vibrations(
 
     given = (4 * slope(_PART / 2) - slope(_PART)) / 3
     left, frequency, force = min(map(harmonic, {abs(x) for x in values.values() if x}), key=lambda each: each[0])
-    if left > _PURE * np.abs(force).max():
+    if not force.any() or left > _PURE * np.abs(force).max():
         return {}
     found = np.linalg.solve(1j * frequency * np.eye(len(a)) - a, np.concatenate([np.zeros(len(free)), force]))[: len(free)]
     return dict(zip(free, (found / (_phase(model) or _direction(force))).tolist(), strict=True))
 
 
 def _phase(model: AskedModel) -> complex | None:
-    """e^{iα} of the only function cos(Ωt + α) in a model, a sine or a cosine; None where there are others."""
+    """1 where all that drives a model is cosines of Ωt, −i where it is sines; None where there are others."""
     written = json.dumps([model.spec[part] for part in ("forces", "motions")], ensure_ascii=False)
-    named = {*_HARMONIC.findall(written)}
-    return {"cos": 1.0 + 0j, "sin": -1j}[named.pop()] if len(named) == 1 and not _SHIFTED.search(written) else None
+    named, every = _HARMONIC.findall(written), _OF_TIME.findall(written)
+    return {"cos": 1.0 + 0j, "sin": -1j}[named[0]] if len({*named}) == 1 and len(named) == len(every) else None
 
 
 def _direction(force: Array) -> complex:

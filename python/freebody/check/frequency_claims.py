@@ -14,12 +14,13 @@ import numpy as np
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import sampled
-from freebody.symbolic.tree import Quotient
+from freebody.symbolic.tree import Quotient, Sym
 
 from .coefficients import multiplied
 from .families import ALL
 from .language.parser import parse
 from .language.spelling import spell
+from .language.statements import Equation
 from .residual import HOLDS
 from .verdict import Kind, Verdict
 from .vibration import OfVibration
@@ -33,7 +34,7 @@ OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?(?!d)[A-Za-z]\}?)?
 """A natural frequency; ω_d is that of damped vibrations."""
 PERIOD = re.compile(r"\A[\s$]*(T|τ|\\tau)\s*=([^=]+?)[\s$]*\Z")
 """A period alone on its side, of a model that has several."""
-_OF_PERIOD = re.compile(r"ω = 2 π/\(.+\)")
+_OF_PERIOD = re.compile(r"\s*period = ([^=]+)")
 """What is read for a period in words."""
 _SAYS_OMEGA = re.compile(
     rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*(?:=(?!.*(?:±|\\pm))[^=]*|[-−](?!.*{OMEGA.pattern})[^=±]*=\s*0[\s$.]*)"
@@ -42,10 +43,10 @@ _SAYS_OMEGA = re.compile(
 
 def frequencies(checker: Checker, declared: Declared, number: str, statement: str) -> Verdict:
     """The verdict about natural frequencies; the corrections of what was said of a period are of that."""
-    found = _judged(checker, declared, number, statement)
-    if _OF_PERIOD.fullmatch(statement):
+    if period := _OF_PERIOD.fullmatch(statement):
+        found = _judged(checker, declared, number, f"ω = 2 π/({period[1]})")
         return replace(found, mends=tuple(as_period(mend, "period") for mend in found.mends))
-    return found
+    return _judged(checker, declared, number, statement)
 
 
 def _judged(checker: Checker, declared: Declared, number: str, statement: str) -> Verdict:
@@ -75,8 +76,8 @@ def _judged(checker: Checker, declared: Declared, number: str, statement: str) -
 def as_period(mend: Correction, letter: str) -> Correction:
     """The correction of a frequency that was said by its period, ω = 2π/T, as that."""
     with suppress(StatementError):
-        match parse(mend.equation).equations[0].right:
-            case Quotient(top=top, bottom=bottom) if not top.symbols:
+        match parse(mend.equation).equations[0]:
+            case Equation(left=Sym(), right=Quotient(top=top, bottom=bottom)) if not top.symbols:
                 turns = 2 * np.pi / float(sampled(top, {})[0])
                 if (period := multiplied(bottom, turns)) is not None:
                     return replace(mend, equation=f"{letter} = {spell(period)}")

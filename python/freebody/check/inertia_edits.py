@@ -8,7 +8,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
+from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, PER_SECOND, TIME
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym
 
@@ -29,7 +29,7 @@ _MOST_SHARING = 12
 _MOST_INERTIAS = 40
 _SAME = 1e-8  # relative: below it two values are one
 STIFFNESS = MASS.times(TIME, -2)
-_ACCELERATION, _SPIN = LENGTH.times(TIME, -2), NUMBER_ONLY.times(TIME, -1)
+_ACCELERATION = LENGTH.times(TIME, -2)
 
 
 def about_another_point(required: RequiredTerm, terms: Monomials) -> Iterator[Node]:
@@ -100,9 +100,9 @@ def mass_centres(
 def of_whole(equation: Equation, missing: Array, vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
     """What an energy lacks of several inertias that turn as one, ½ (I + J + μ ρ²) ω², or a moment, (I + J + μ ρ²) α."""
     known = vocabulary
-    rates = [n for n in (*(Sym(q.name, 1) for q in known.coordinates), *known.others) if known.dimension(n) == _SPIN]
+    rates = [n for n in (*(Sym(q.name, 1) for q in known.coordinates), *known.others) if known.dimension(n) == PER_SECOND]
     moves: list[Node] = [Quotient(power_of(n, 2), Num(2.0, "2")) for n in rates]
-    moves += [n for n in symbols_in(equation) if n not in known.parameters and known.dimension(n) == _SPIN.times(TIME, -1)]
+    moves += [n for n in symbols_in(equation) if n not in known.parameters and known.dimension(n) == PER_SECOND.times(TIME, -1)]
     masses, lengths, inertias = ([n for n in known.sizes if known.dimension(n) == its] for its in (MASS, LENGTH, INERTIA))
     found: list[Node] = [*inertias, *(Mul((mass, power_of(length, 2))) for mass in masses for length in lengths)][:_MOST_INERTIAS]
     rows = np.array([sampled(node, values) for node in found])

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 
+from freebody.symbolic.alphabet import LATEX_WORDS
 from freebody.symbolic.symbols import folded
 
 from ..model.errors import ModelProblem
@@ -207,6 +208,12 @@ def plainly(
         is_comment = "→" in words or _is_comment(words, known, measured)
         return told(found, "a remark, and not judged") if is_comment else found[0]
 
+    def in_words(found: re.Match[str]) -> str:
+        said = re.findall(r"[A-Za-z]{3,}", found[0])
+        is_condition = re.match(CONDITION, found[0].lstrip()) is not None
+        named = any(word in known or word in CALLS or word in LATEX_WORDS for word in said)
+        return found[0] if is_condition or named else told(found, "a law in words, and not judged")
+
     said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), read))).lstrip()
     said = said.translate(_BESIDE_A_MOMENT)
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
@@ -230,7 +237,7 @@ def plainly(
     said = _NUMBER.sub(lambda found: told(found, "the number of the equation"), said)
     said = _STOP.sub("", _COMMENT.sub(comment, said))
     said = _TAIL.sub(lambda found: told(found, "a remark, and not judged"), said)
-    said = _IN_WORDS.sub(lambda found: told(found, "a law in words, and not judged"), said)
+    said = _IN_WORDS.sub(in_words, said)
     said = _SAYING.sub(
         lambda found: f"{found[1]}: " if re.match(CONDITION, found[1]) else told(found, "a remark, and not judged"), said
     )

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
-from freebody.symbolic.dimensions import FORCE, LENGTH, NUMBER_ONLY, TIME
+from freebody.symbolic.dimensions import FORCE, LENGTH, PER_SECOND, TIME
 from freebody.symbolic.tree import Add, Negative, Node, Num, Pow, Quotient, Sym, addends, exchange, substitute, walk
 
 from .edits import Edit
@@ -23,7 +23,7 @@ _WAYS = (
     ("plus", lambda n: n, "absolute where it is relative"),
     ("minus", Negative, "relative where it is absolute"),
 )
-_SPEED, _SPIN, _STIFFNESS = LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1), FORCE.times(LENGTH, -1)
+_SPEED, _STIFFNESS = LENGTH.times(TIME, -1), FORCE.times(LENGTH, -1)
 _MOMENTS = ("_1", "_2")
 
 
@@ -71,7 +71,7 @@ def _of_turning_frames(equation: Equation, found: Sequence[Sym], vocabulary: Voc
     """An angular velocity that has a letter, of a motor say, which stands more than once and is measured from what turns itself."""
     rates = [n for n in dict.fromkeys(found) if n.dots == 1 and Sym(n.name) in vocabulary.angular]
     letters = [n for n in dict.fromkeys(found) if Sym(n.name) not in vocabulary.coordinates]
-    for one in (n for n in letters if vocabulary.dimension(n) == _SPIN and found.count(n) > 1):
+    for one in (n for n in letters if vocabulary.dimension(n) == PER_SECOND and found.count(n) > 1):
         for rate in rates:
             yield from _other_frames(equation, one.name, f"{rate.name}'", {one: rate})
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from freebody.symbolic.dimensions import NUMBER_ONLY, TIME
+from freebody.symbolic.dimensions import PER_SECOND
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, is_zero, substitute, unsigned, walk
@@ -65,7 +65,6 @@ _LITTLE = 0.01  # of the least term: what is left there of one that is no slip
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
 _OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
 _BLUR = 1e3  # of what is lacking there, beside round-off
-_SPIN = NUMBER_ONLY.times(TIME, -1)
 _SAME = 1e-9  # rad: below it two angles are one
 _BLUR_OF_RUN = 1e2  # the same where a motion was followed from its start
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
@@ -277,7 +276,7 @@ class Search:
         known = self.vocabulary
         angles = [n for n in known.angles if isinstance(n, Sym) and n.key in self.values]
         if self.case.sampler.moment:
-            rates = [*(n for n in known.letters if known.dimension(n) == _SPIN), *(Sym(n.name, 1) for n in known.angular)]
+            rates = [*(n for n in known.letters if known.dimension(n) == PER_SECOND), *(Sym(n.name, 1) for n in known.angular)]
             angles += [n for n in rates if n.key in self.values and self.values[n.key].ndim == 1]
         angles.sort(key=lambda n: n not in {*known.parameters, *known.letters})
         first = {n: next((one for one in angles if self._are_one(one, n)), n) for n in angles}  # where it has no value, itself

@@ -14,7 +14,7 @@ from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest, replace_names, spell
 from freebody.model.writer import Writer
 from freebody.run.records import quote
-from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, PER_SECOND, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Num, Sym, Unit, exchange, substitute, walk
@@ -47,7 +47,6 @@ _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
 _CENTRE = re.compile(r"\bcentre_([xy])\(\)")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
-_PER_SECOND = NUMBER_ONLY.times(TIME, -1)
 _OF_ANGLE = re.compile(r"\b(?:sin|cos)\(s\)")
 _FUNCTIONS = ("sqrt", "sin", "cos", "tan", "pi")
 """Of parameters, what does not change."""
@@ -132,9 +131,8 @@ class Symbols:
 
     @property
     def no_rates(self) -> list[str]:
-        """Symbols that make no angle with a time."""
-        known = {name: m.dimension for name, m in self.meanings.items() if m.dimension is not None or m.kind == "parameter"}
-        return [name for name, its in known.items() if its is None or its._replace(angle=0) != _PER_SECOND]
+        """Symbols that are no rates by their dimension, and make no angle with a time."""
+        return [name for name, its in self.dimensions.items() if its._replace(angle=0) != PER_SECOND]
 
     def of_kind(self, *kinds: str) -> list[str]:
         """Symbols that are ``parameter``, ``coordinate``, ``gauge``, ``reaction``, ``direction``, ``declared`` …, scalar or vector."""

@@ -146,7 +146,8 @@ class Traits:
 
     def is_beside_square(self, square: Pow) -> bool:
         """Whether the square of a rate is added to others, as in an energy."""
-        is_square = lambda n: isinstance(n, Pow) and isinstance(n.base, Sym) and self.vocabulary.is_rate(n.base)
+        moving = lambda n: isinstance(n, Sym) and self.vocabulary.is_rate(n) and n not in self.vocabulary.parameters
+        is_square = lambda n: isinstance(n, Pow) and moving(n.base)
         sums = (n.terms for n in self.parts if isinstance(n, Add) and any(term is square for term in n.terms))
         return any(all(map(is_square, terms)) for terms in sums)
 

@@ -329,7 +329,7 @@ class Vibration:
             return {**out, "period": 2 * np.pi / natural, "damped period": 2 * np.pi / damped}
 
     def _forced(self, a: Array | None, rest: State | None, row: Array) -> dict[str, float]:
-        """The amplitudes of what moves freely, and how far they lag behind."""
+        """The amplitudes of what moves freely, m or rad, and how far they lag behind, rad in [−π, π]."""
         values = dict(zip(self.parameters, row.tolist(), strict=True))
         free = linear_equations(self.sampler.core, self.rest).free
         if a is None or rest is None or not self.drive or len(a) != 2 * len(free):

@@ -159,7 +159,7 @@ _NAMED = {
     r"frequency": "frequency",
 }
 _NAMED_VALUE = re.compile(r"([a-z ]+?)\s*(?::|\bis\b)\s*([^=:;\n]+)")
-_AS_OMEGA = {"period": "ω = 2 π/({})", "natural_frequency": "ω = {}", "frequency": "ω = 2 π ({})"}
+_AS_OMEGA = {"period": "period = {}", "natural_frequency": "ω = {}", "frequency": "ω = 2 π ({})"}
 _FROM_TO = re.compile(
     r"(∫|\\int)(?![_^])([^=;\n]*?\bd\s*\\?\w+)\s+from\s+(?:\w+\s*=\s*)?(\S+)\s+to\s+(?:\w+\s*=\s*(?=\S+\s*=))?(\S+)"
 )

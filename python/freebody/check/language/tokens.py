@@ -74,7 +74,7 @@ class Names:
     apart: bool = False
     """Whether letters side by side are no name with an index, which they would spell."""
     no_rates: frozenset[str] = frozenset()
-    """Those that are no angle times ``t``: v sin β t is v sin(β) t."""
+    """Those that are no angular rates, so that v sin β t is v sin(β) t."""
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
