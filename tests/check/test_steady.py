@@ -41,3 +41,24 @@ def test_what_dies_away_has_done_so(drag: str, statement: str, kind: Kind) -> No
     mechanism = Mechanism.loads(f"freebody: 1\n{SLEDGES}{drag}initial: {{x: 0.1 m, y: 0, at_rest: true}}\n")
     verdict = Checker(mechanism).check(f"in the steady state: {statement}", correcting=False)
     assert verdict.kind is kind, str(verdict)
+
+
+SHAFT = """
+freebody: 1
+parameters: {J: 0.2 kg*m^2, K: 3 N*m/rad, c: 0.4 N*m*s/rad, Ω: 5 rad/s}
+gravity: none
+bodies: {shaft: {mass: 1 kg, inertia: J}, disk: {mass: 1 kg, inertia: J}}
+joints:
+  one: {type: hinge, of: [ground.O, shaft.origin], coordinate: ψ}
+  two: {type: hinge, of: [ground.O, disk.origin], coordinate: φ}
+forces: {wire: {type: law, along: ψ - φ, value: -K*(ψ - φ)}, oil: {type: law, along: φ, value: -c*rate(φ)}}
+motions: {motor: {of: ψ, is: Ω*t}}
+initial: {φ: 0, rates: {φ: 0}}
+run: {until: 1 s}
+"""
+"""A disk in oil that a shaft turns by a wire."""
+
+
+@pytest.mark.parametrize(("statement", "kind"), [("K (ψ - φ) = c Ω", T), ("φ' = Ω", T), ("ψ = φ", W), ("φ' = 0", W)])
+def test_what_is_driven_at_one_speed_takes_the_rest_along(statement: str, kind: Kind) -> None:
+    assert Checker(Mechanism.loads(SHAFT)).check(f"in the steady state: {statement}", correcting=False).kind is kind

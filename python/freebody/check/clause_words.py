@@ -75,6 +75,10 @@ _WORDS: tuple[tuple[str, str], ...] = (
         r"(?:in )?between (?:the )?(?:two |both |first and (?:the )?second )?(impact|blow|collision|bounce|shock|hit)s?",
         r"after the first \1",
     ),
+    (
+        r"from (?:the )?[a-z]+ of (?:the )?[a-z]+ to (?:just before )?(?:the )?((?:first |second )?[a-z]+(?: of (?:the )?[a-z]+)?)",
+        r"until the \1",
+    ),
     (r"(?:and )?before (?:the )?(?:second|next|third)\b.*", ""),
     (r"(?:pure )?(rolling|rolls|sliding|slides|slipping|slips) \([^()=]+=[^()]+\)", r"while \1"),
     (rf"({INSTANT}(?:after|at)|at) ((?:the )?(?:release|start|beginning))(?: from rest)? ?\([^()1-9]*=[^()1-9]*\)", r"\1 \2"),

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _ENDS = re.compile(r"\b(?:instant|moment) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
 _BLOW = re.compile(BLOW)
+_FREELY = re.compile(r"\b(?:swing|mov|turn|roll|fall|fl|runn?|ris|slid)(?:y|es|ies|e?s|ing)\s+free(?:ly)?\b")
 _ON, _OFF = re.compile(r"\b(?:on|under)\b"), re.compile(r"\boff\b")
 _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _SAME_TIME = 1e-6  # of a run: by less the moments of two runs of one motion differ
@@ -161,6 +162,11 @@ class Happenings:
             return None
         ends = called([name for name in names if _OFF.search(name)], re.findall(r"[^\W\d]{3,}", words))
         return ends[0] if len(ends) == 1 else None
+
+    def freeing(self, words: str) -> str | None:
+        """The only event that cuts or releases something, where words are of what moves freely; else None."""
+        names = [event["name"] for event in self._events if does(event, "release")]
+        return names[0] if len(names) == 1 and _FREELY.search(words) else None
 
     def event(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state

@@ -40,14 +40,16 @@ _SWITCHES = 2  # of these, after which corrections are tried
 def also_later(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
     """The verdict about what holds as the model is at first: wrong where it does not hold after something switches, and some of it is 0 at
     first; else that is told."""
-    said = ", ".join(f"`{term}`" for term in verdict.untested)
+    said, shown = ", ".join(f"`{term}`" for term in verdict.untested), False
     for name in checker.happens.switches if verdict.untested else checker.happens.switches[:_SWITCHES]:
         with suppress(ModelProblem, StatementError):
             there = checker.beside("after", name, {})
             later = there.check(text, letters, correcting=bool(verdict.untested))
-            if later.kind is not Kind.WRONG:
+            if later.kind is not Kind.WRONG or _is_let_go(name, there, text, letters):
+                if later.ok and not later.untested:  # there all of it shows
+                    verdict, shown = replace(verdict, untested=()), True
                 continue
-            if not verdict.untested and (still := _standing(checker, verdict, text, letters)):
+            if not (verdict.untested or shown) and (still := _standing(checker, verdict, text, letters)):
                 later = replace(later, mends=there.check(text, letters).mends if checker.correcting else ())
                 return replace(
                     later, notes=(*later.notes, f"At first, where {still} stands still, it holds; not so after {name}.")
@@ -121,6 +123,16 @@ def _standing(checker: Checker, verdict: Verdict, text: str, letters: Declared |
         return ""
     rates = {n.name: values[Sym(n.name, 1).key] for n in said if n in known.coordinates and not n.dots}
     return next((name for name, rate in rates.items() if not np.any(rate)), "")
+
+
+def _is_let_go(name: str, there: Checker, text: str, letters: Declared | None) -> bool:
+    """Whether a reaction of which a statement speaks is gone after something that sets free: it is said of what is held by it."""
+    if not name.startswith(_SETS_FREE):
+        return False
+    case = there.case(with_condition_first(plainly(text)[0]), letters)
+    values, known = case.values(), case.meaning.vocabulary
+    reactions = [n for n in symbols_in(case.program) if n in known.others and known.is_load(n)]
+    return any(not np.any(values[n.key]) for n in reactions if n.key in values)
 
 
 def _stays_zero(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> bool:

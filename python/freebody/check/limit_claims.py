@@ -205,6 +205,9 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
     """For small motions, to first order."""
     if [text for text, _ in case.hypothesis.small] == [_TIME]:
         return _soon(case, statement, limits)
+    if case.hypothesis.steady and (drive := _drive(case)):
+        near, far = (replace(case.hypothesis, small=(), scaled=((drive, size),)) for size in (SMALL, 10 * SMALL))
+        return _as_it_shrinks(case, statement, limits, near, far)
     for equation in case.equations:
         if says_zero(equation) and vanishes(equation, case.values(), case.values(wider(case.hypothesis)), 1 / 3):
             continue
@@ -222,6 +225,12 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
     return _true(statement, limits)
 
 
+def _drive(case: Case) -> str:
+    """The parameter by which a model is driven to and fro; nothing where none does."""
+    vibration = case.meaning.symbols.vibration
+    return vibration.drive if vibration else ""
+
+
 def _true(statement: str, limits: str) -> Verdict:
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
 
@@ -229,10 +238,15 @@ def _true(statement: str, limits: str) -> Verdict:
 def _soon(case: Case, statement: str, limits: str) -> Verdict:
     """For small times: soon after the start, to the order of what is said."""
     soon, sooner = (replace(case.hypothesis, small=(), since="start", late=late) for late in _SOON)
-    values = case.values(sooner)
+    return _as_it_shrinks(case, statement, limits, sooner, soon)
+
+
+def _as_it_shrinks(case: Case, statement: str, limits: str, family: Family, larger: Family) -> Verdict:
+    """To the order of what is said, from larger motions of a kind to smaller ones."""
+    values = case.values(family)
     for equation in case.equations:
-        if not first_order(case, equation, sooner, soon):
-            near = replace(case, hypothesis=sooner, known={})
+        if not first_order(case, equation, family, larger):
+            near = replace(case, hypothesis=family, known={})
             mends = tuple(corrections(near, equation, SECOND)) if case.correcting else ()
             seen = evidence(residual(equation, values), values)
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)

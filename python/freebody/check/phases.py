@@ -137,7 +137,7 @@ def phase(checker: Checker, words: str) -> Phase | None:
         words = re.sub(rf"\b(the|an?|its)\s+{re.escape(name)}\b", r"\1 body", words)
     if moving := _moving(checker, words):
         return moving
-    if joins := _joining(checker, words):
+    if joins := _joining(checker, words) or checker.happens.freeing(words):
         return Phase(False, (joins,), False)
     if not words.startswith("until") and (held := _held_by(checker, words, limits)):
         return held

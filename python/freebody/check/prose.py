@@ -171,6 +171,8 @@ _NUMBER = re.compile(
 )
 _LETTER = re.compile(r"\A\s*(?:\([a-h]\)\s+(?=[\w\\$])|[a-h]\)\s+)")
 _AS = r"as (?:expected|required|before|usual|given|shown|stated|above)"
+_POINT = re.compile(r"(\b(?:about|point|through)\s+)\$([A-Z]\w?)\$")
+"""``about $O$``, a name within words."""
 _COMMENT = re.compile(
     rf"{_BEHIND}(?:\s*,(?:(?!\s*(?:{CONDITION})\b)|(?=\s*{_AS}\b))([^=<>≈≤≥,;:()\[\]+*/^\\$]+)"
     rf"|\s+[(\[]\s*(?:in\s)?\+?(\S+\s*(?:→|->)\s*\S+\s+[a-z][a-z ,'-]+|(?:[^()\[\]=<>≈≤≥+\\$]|\([^()]*\))+?)\+?\s*[)\]]){_CLOSES}"
@@ -215,7 +217,7 @@ def plainly(
         return found[0] if is_condition or named else told(found, "a law in words, and not judged")
 
     said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), read))).lstrip()
-    said = said.translate(_BESIDE_A_MOMENT)
+    said = _POINT.sub(r"\1\2", said.translate(_BESIDE_A_MOMENT))
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
     said = _EXTREME.sub(lambda found: f"_{{{found[1] or found[2] or found[3]}}}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)

@@ -37,7 +37,7 @@ _SET_APART = re.compile(r"\$+|\\[\[\]()]")
 _TEXT = re.compile(r"\\(?:text|textrm|textit|mbox)\s*\{([^{}]*)\}(?![_^'])|\\(?:mathrm|mathit)\s*\{([^{}]*[a-z]{2} [^{}]*)\}")
 _BLANK = re.compile(r"\\(?:(?:q?quad|textstyle|displaystyle)(?![A-Za-z])|[,;:!> ])")
 _IMPLIES = re.compile(
-    r"⇒|⟹|⟺|⇔|∴|=>|\\(?:Rightarrow|Longrightarrow|implies|therefore|iff|Leftrightarrow)(?![A-Za-z])|(?:→|\\to\b)(?=(?:[^→=,;:()]|\([^()]*\))*=)"
+    r"⇒|⟹|⟺|⇔|∴|=>|\\(?:Rightarrow|Longrightarrow|implies|therefore|iff|Leftrightarrow)(?![A-Za-z])|(?:→|\\to\b)(?!\s*(?:∞|\\infty|inf|0\b))(?=(?:[^→=,;:()]|\([^()]*\))*=)"
 )
 MUCH_LESS = re.compile(r"([^\s,;:()=]+)\s*(?:≪|<<|\\ll(?![a-z]))\s*1(?![\d.])")
 _ENDS = re.compile(rf"(?<=[\w)}}²³'′″%{_EDGE}])\s*[.?!]\s+(?=[A-Z\\({_EDGE}])|;\s+|\n+")

@@ -23,7 +23,7 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
         return "a motion relative to a body that moves is not that seen from what is at rest"
     if edit.kind == "symbol" and isinstance(edit.new, Sym) and edit.new.dots == 1:
         return "one rate stands for another: that of the body for the relative one, or the other way round"
-    if edit.kind == "factor" and edit.old is not None and sum(n.dots == 1 for n in symbols_in(edit.old)) > 1:
+    if edit.kind == "factor" and edit.old is not None and sum(n.dots == 1 for n in symbols_in(_term(edit.old, equation))) > 1:
         return "the Coriolis part of an acceleration is twice the product of the two rates"
     if edit.kind in ("factor", "sign", "symbol") and is_constraint(equation, vocabulary):
         return "the constraint between these motions is another: count what moves along, and differentiate it term by term"
@@ -117,6 +117,12 @@ def is_constraint(equation: Equation, vocabulary: Vocabulary) -> bool:
     return all(its is not None and its.mass == 0 for its in found) and not any(
         n.name in ("g", "gravity") for n in symbols_in(equation)
     )
+
+
+def _term(part: Node, equation: Equation) -> Node:
+    """The least product in which a part stands; itself, where it stands in none."""
+    products = [n for n in walk(equation) if isinstance(n, Mul) and any(each is part for each in walk(n))]
+    return min(products, key=lambda n: sum(1 for _ in walk(n)), default=part)
 
 
 def _is_of_inertia(old: Node | None, equation: Equation, vocabulary: Vocabulary) -> bool:

@@ -52,20 +52,23 @@ def steady_state(model: AskedModel, rng: np.random.Generator, values: Mapping[st
 
 
 def _settled(model: AskedModel, state: State) -> State | None:
-    """The state near one in which directions on which accelerations depend by the place have neither a rate nor an acceleration, and those
-    on which they depend by the rate have none; None where there is none."""
+    """The state near one in which directions on which accelerations depend by the place have no acceleration, and none but that rate by which
+    they keep up with what is prescribed, and those on which they depend by the rate have no acceleration; None where there is none."""
     which = independent(model.free_rates)
     names, n = [model.names[i] for i in which], len(model.names)
     if not names:
         return state
     falls, sizes = [f"accel({quote(name)})" for name in names], model.sizes[which]
 
-    def parts(state: State) -> tuple[Array, Array, Array, Array]:
-        """How all coordinates move with those, accelerations, and by which places and rates of those they change, in units."""
+    def parts(state: State) -> tuple[Array, Array, Array, Array, Array]:
+        """How all coordinates move with those, accelerations, by which places and rates of those they change, and how they do as all moves on,
+        in units."""
         free = model.rates_free_in(model.core.free_bodies(state))
         carried, units = free @ np.linalg.pinv(free[which]), model.rate**2 * sizes
         read = model.core.derivatives(falls, state)[:, 1 : 1 + 2 * n] * np.tile(model.sizes, 2) / units[:, None]
-        return carried, model.core.evaluate(falls, state) / units, read[:, :n] @ carried, model.rate * read[:, n:] @ carried
+        goes_on = read[:, :n] @ (state.u / (model.rate * model.sizes))
+        falling = model.core.evaluate(falls, state) / units
+        return carried, falling, read[:, :n] @ carried, model.rate * read[:, n:] @ carried, goes_on
 
     def at(q: Array, change: Array) -> State:
         """The state at a place with rates that are changed by so much of those; strings stay taut where all have theirs."""
@@ -75,16 +78,15 @@ def _settled(model: AskedModel, state: State) -> State | None:
         return model.moved(state, q, {name: rates[name] for name in names})
 
     for step in range(_SETTLES):
-        carried, falling, by_place, by_rate = parts(state)
+        carried, falling, by_place, by_rate, goes_on = parts(state)
         held = _rows(by_place)
-        v = state.u[which] / (model.rate * sizes)
         if step == 0:  # what resists as a square of a rate has to have one
             push = falling - held.T @ (held @ falling)
             state = at(state.q, push / max(np.abs(push).max(), _RESTS))
             continue
         slowed = _rows(by_rate - by_rate @ held.T @ held)
         wanted = np.vstack([held, slowed])
-        off = np.concatenate([wanted @ falling, held @ v])
+        off = np.concatenate([wanted @ falling, held @ np.linalg.pinv(by_place) @ goes_on])
         if np.abs(off).max(initial=0.0) < _RESTS:
             return state
         slopes = np.block([[wanted @ by_place, wanted @ by_rate], [np.zeros_like(held), held]])

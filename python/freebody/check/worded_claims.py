@@ -391,6 +391,8 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
         return verdict
     up_to = replace(SINCE_START, until=checker.happens.called(event))  # what is before it may be the motion up to it
     until = checker.check(statement, declared, up_to)
+    if until.ok and until.untested:  # it stands still until something lets it go
+        until = checker.check(statement, declared, replace(up_to, through=True))
     return until if until.ok or (until.mends and not verdict.mends) else verdict
 
 
