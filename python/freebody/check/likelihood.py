@@ -16,7 +16,7 @@ from .language.dimensions import dimension
 from .language.statements import Equation, terms
 from .powers import powers_of
 from .slips import is_constraint
-from .taken_away import TakenAway, cancels, cancels_within, numbers, terms_of
+from .taken_away import TakenAway, cancels, cancels_within, numbers, says_the_same, terms_of
 from .traits import Traits, is_answer
 from .vocabulary import Vocabulary, stem
 
@@ -93,7 +93,7 @@ class Likelihood:
         if edit.new is None:
             asked = any(not side.symbols <= edit.after.symbols for side in self.taken.differences)
             return self._of_extra_term(edit.old) + _ODD * asked if edit.kind == "extra term" and edit.old is not None else 0.0
-        if cancels(edit.after) and not cancels(self.equation):
+        if (cancels(edit.after) and not cancels(self.equation)) or says_the_same(edit.after, self.equation):
             return math.inf
         if isinstance(edit.new, Negative) and dimension(edit.new, self.vocabulary.dimensions) in (MASS, INERTIA):
             return 0.0 if self.its.weighs(edit.old) else math.inf

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -13,10 +12,11 @@ import numpy as np
 
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Mul, Node, addends, is_zero, unsigned, walk
+from freebody.symbolic.tree import Add, Node, addends, is_zero, unsigned, walk
 
 from .language.dimensions import dimension
 from .language.statements import Equation, terms
+from .powers import powers_of
 from .slips import is_constraint
 from .solve_for_term import is_asked
 from .vocabulary import Vocabulary
@@ -88,10 +88,16 @@ def cancels(equation: Equation) -> bool:
     return len(left) + len(right) > 2 and any(each in right for each in left)
 
 
-def _in_order(side: Node) -> list[tuple[int, frozenset[tuple[Node, int]]]]:
-    """The terms of a sum by their factors."""
-    factors = ((sign, term.factors if isinstance(term, Mul) else (term,)) for sign, term in addends(side))
-    return [(sign, frozenset(Counter(each).items())) for sign, each in factors]
+def says_the_same(one: Equation, other: Equation) -> bool:
+    """Whether two equations have the same terms on their sides, products in any order and without what is above and below a line."""
+    return all({*_in_order(a)} == {*_in_order(b)} for a, b in ((one.left, other.left), (one.right, other.right)))
+
+
+def _in_order(side: Node) -> list[tuple[int, tuple[float, frozenset[tuple[Node, int]]]]]:
+    """The terms of a sum by their signs, numbers and powers."""
+    found = ((sign, *powers_of(term)) for sign, term in addends(side))
+    powers = lambda each: frozenset((base, n) for base, n in each.items() if n)
+    return [(sign if number > 0 else -sign, (abs(number), powers(each))) for sign, number, each in found]
 
 
 def cancels_within(whole: Node, values: Mapping[str, Array]) -> bool:
