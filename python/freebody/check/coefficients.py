@@ -75,6 +75,8 @@ def multiplied(node: Node, value: float) -> Node | None:
     """A term times a number; None where that is no number that a person writes."""
     if isinstance(node, Negative):
         return multiplied(node.of, -value)
+    if node == _ONE:
+        return recognised(value)
     match node:
         case Mul((Num(own), *rest)) if recognised(own * value) is not None:
             return multiplied(product(rest), own * value)
