@@ -176,7 +176,8 @@ class MotionSampler(FollowedModel):
         else:
             found = self.released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
-        comes = "after" in self.moment or ("before" in self.moment and (family.at_start or family.since == BEFORE))
+        at_once = family.at_start and not family.held  # with parameters that are said it may come otherwise
+        comes = "after" in self.moment or ("before" in self.moment and (at_once or family.since == BEFORE))
         if found and start and comes and not self._came_as_usual(family, values, start):
             return None
         start = self.started(values) if family.since == BEFORE else start

@@ -96,11 +96,12 @@ _STEM = 3  # letters that words of one meaning begin with
 @dataclass(frozen=True)
 class Phase:
     """What words say of the model's own motion: a stretch on which something goes on, from the start or from each of the ``changes`` on;
-    or the moment of these."""
+    or the moment of these. ``is_named``: a part is called by its name, so that no other stretch is meant."""
 
     at_first: bool
     changes: tuple[str, ...]
     is_moment: bool
+    is_named: bool = False
 
 
 def with_names(words: str, names: Iterable[str]) -> str:
@@ -245,7 +246,7 @@ def _held_by(checker: Checker, words: str, limits: Mapping[str, Any]) -> Phase |
     firsts = _firsts(checker.happens.run, checker.happens.begins, "touch", (), False)
     changes = tuple(change for change, (_, part) in firsts.items() if part == name)[-1:]
     at_first = limits[name].state != "open"
-    return Phase(at_first, changes, False) if at_first or changes else None
+    return Phase(at_first, changes, False, is_named=True) if at_first or changes else None
 
 
 def _locking(checker: Checker, kind: str, lasts: bool, words: str) -> Phase | None:

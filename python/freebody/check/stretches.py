@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from itertools import pairwise
 
 import numpy as np
 
 from freebody.core import Array, Trajectory
+from freebody.run.moments import Unreached, time_of
 
 _BEHIND = 1e-6  # of what is left of a stretch, by which the next zero is looked for behind one
 _NOTHING = 1e-9  # of the largest value
@@ -18,8 +20,10 @@ _ROUND = 2
 
 
 def stretches(motion: Trajectory, until: str = "") -> list[tuple[float, float]]:
-    """Beginning and end of each, the last at the first event of a name, if it comes."""
-    begins, ends = float(motion.steps[0]), min([motion.end.t, *(event.t for event in motion.events if event.name == until)])
+    """Beginning and end of each, the last where something of a name first happens, if it does."""
+    begins, ends = float(motion.steps[0]), motion.end.t
+    with suppress(Unreached):
+        ends = min(ends, time_of(motion, until)) if until else ends
     inside = (change.t for change in motion.changes if begins < change.t < ends)
     return list(pairwise(dict.fromkeys((begins, *inside, ends)))) or [(begins, ends)]
 
