@@ -101,20 +101,17 @@ class AskedModel:
         """Parameters and states that are plain numbers in the model, with those; the others follow from them, count items, or are on or off."""
 
     @cached_property
-    def switched(self) -> list[str]:
-        """The parameters that events set."""
-        done = (action for event in self.spec["events"] for action in event["then"] if isinstance(action, dict))
-        return [*dict.fromkeys(name for action in done for name in action.get("set", ()))]
+    def switched(self) -> Mapping[str, set[str]]:
+        """The parameters that events set, with the values that they give them."""
+        found: dict[str, set[str]] = {}
+        for action in (action for event in self.spec["events"] for action in event["then"] if isinstance(action, Mapping)):
+            for name, value in action.get("set", {}).items():
+                found.setdefault(name, set()).add(str(value))
+        return found
 
     def _is_on_or_off(self, name: str, numbers: Mapping[str, Any]) -> bool:
         """Whether a parameter without a unit is a switch: it starts with, and events set it to, 0, 1 or −1 alone."""
-        done = (
-            action["set"]
-            for event in self.spec["events"]
-            for action in event["then"]
-            if isinstance(action, dict) and "set" in action
-        )
-        values = [str(numbers.get(name)), *(str(each[name]) for each in done if name in each)]
+        values = {str(numbers.get(name)), *self.switched[name]}
         return self.start.parameters.get(name) in (None, NUMBER_ONLY) and all(map(_SWITCH.fullmatch, values))
 
     def bound(self, values: Mapping[str, float], state: State) -> Array:

@@ -167,9 +167,8 @@ def first_order(case: Case, equation: Equation, family: Family, larger: Family |
         left = np.abs(residual(equation, values).sides.residual).max(axis=1)
         with np.errstate(all="ignore"):
             sizes = [np.abs(sampled(term, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
-            there = np.isfinite([left, *sizes]).all(
-                axis=0
-            )  # where it has a value: what it is said of may not swing with any numbers
+            # Where it has a value: what it is said of may not swing with any numbers.
+            there = np.isfinite([left, *sizes]).all(axis=0)
             shares = [np.median((left / size)[there]) for size in sizes]
         return float(np.max(shares, initial=0.0)) if there.sum() >= OFTEN else np.nan
 

@@ -126,9 +126,8 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
     said = [part for clause in _conclusion(_explained([*around[0], *around[1]], is_label)) for part in _parts(clause, is_label)]
     labels = [part for part in said if _is_of_what(part, is_label)]
     conditions = [part for part in said if part not in labels]
-    if (
-        begins and conditions and conditions[-1] == said[-1] and not _is_condition(said[-1])
-    ):  # whose value it is that an equation gives
+    # What is no condition says whose value an equation gives.
+    if begins and conditions and conditions[-1] == said[-1] and not _is_condition(said[-1]):
         conditions[-1:] = [reworded(found[0]) or found[0] for found in _EMBEDDED.finditer(conditions[-1])]
     if any(map(_RATE_SIGN.search, conditions)):  # that says which way
         conditions = [clause for clause in conditions if not _BACK.match(clause)]
@@ -226,9 +225,8 @@ def _parts(clause: str, is_label: re.Pattern[str]) -> Iterator[str]:
         and not (_HEAD.match(clause) or _is_of_what(aside[2], is_label))
         and (_is_condition(aside[2]) or _SMALL.match(aside[2]))
     ):
-        what = (
-            [aside[1].strip()] if _is_of_what(aside[1].strip(), is_label) or reworded(aside[1]) else []
-        )  # else in brackets is what the words mean
+        # Brackets behind other words say what these mean.
+        what = [aside[1].strip()] if _is_of_what(aside[1].strip(), is_label) or reworded(aside[1]) else []
         yield from (part for each in (*what, *_listed(aside[2])) for part in _parts(each.strip(), is_label))
     elif clause and not _IDLE.fullmatch(clause):
         yield clause

@@ -109,9 +109,8 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
     states = [motion.state(t) for t in times.tolist()]
     first = touching(state if state.history else states[0])
-    same = takewhile(
-        lambda each: stated or touching(each) == first, states
-    )  # until a cord is unwound; none where at once it touches
+    # Until a cord is unwound; none where at once it touches.
+    same = takewhile(lambda each: stated or touching(each) == first, states)
     return Samples(sampler.core, [*same]), stated
 
 

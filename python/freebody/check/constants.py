@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.symbolic.differentiate import rate
-from freebody.symbolic.dimensions import LENGTH, TIME
+from freebody.symbolic.dimensions import LENGTH, SPEED
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, unsigned, walk
@@ -290,7 +290,7 @@ class _Search:
                 parts: list[Node] = [
                     n for n in every if known.dimension(n) == its and n != base and (n.dots or n not in known.others)
                 ]
-                for part in (*parts, *(speeds if its == LENGTH.times(TIME, -1) else ())):
+                for part in (*parts, *(speeds if its == SPEED else ())):
                     for more_of_it in (part, Negative(part)):
                         new = Pow(more(base, more_of_it), node.exponent, span=node.span)
                         yield Edit.at(self.equation, "symbol", node, new, 0.1)

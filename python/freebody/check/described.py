@@ -90,10 +90,8 @@ def _mover(words: str, way: str, checker: Checker) -> str | None:
 def _moving(way: str, checker: Checker) -> list[str]:
     """The bodies that move along a way, there or back, on the model's own run."""
     run, bodies = checker.happens.run, [body["name"] for body in checker.sampler.spec["bodies"]]
-    times, still = (
-        np.linspace(run.t[0], float(run.outcome.t), _LOOKS)[1:-1],
-        _STILL * checker.sampler.length * checker.sampler.rate,
-    )
+    times = np.linspace(run.t[0], float(run.outcome.t), _LOOKS)[1:-1]
+    still = _STILL * checker.sampler.length * checker.sampler.rate
     along = ((name, run.evaluate(f"{_WAYS[way][0]}({quote(name)}.G)", times)) for name in bodies)
     return [name for name, speeds in along if np.abs(speeds).max() > still]
 
@@ -184,7 +182,7 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
     if _SPEED.search(words):
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
     if _HEIGHT.search(words):
-        return _of(f"y({quote(body)}.G)" if body else _level(checker), least) if body or checker.sampler.moves_one_way else ()
+        return _of(f"y({quote(body)}.G)" if body else _heights(checker), least) if body or checker.sampler.moves_one_way else ()
     name = names[0] if len(names) == 1 else _turning(body, checker)
     return _of(spell(name), least) if _PLACE.search(words) and name else ()
 
@@ -199,8 +197,8 @@ def _turning(body: str | None, checker: Checker) -> str | None:
     return own[0][0]["name"] if len(own) == 1 and len(own[0]) == 1 else None
 
 
-def _level(checker: Checker) -> str:
-    """The height of all bodies, each by its mass, of a mechanism that moves in one way alone."""
+def _heights(checker: Checker) -> str:
+    """The sum of masses times heights, kg m, in the model language: greatest where the mass centre of all bodies is highest."""
     masses = {body["name"]: body["mass"] for body in checker.sampler.metadata["bodies"] if body.get("mass")}
     weighed = (f"{mass!r}*y({quote(name)}.G)" for name, mass in masses.items())
     return f"({' + '.join(weighed)})"

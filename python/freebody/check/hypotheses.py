@@ -91,9 +91,8 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         places = rest.q if rest else np.zeros(len(checker.sampler.names))
         model = checker.sampler
         rates = model.rates_free_in(model.core.free_bodies(rest)) if rest else model.free_rates
-        free = (
-            np.abs(rates).max(axis=1, initial=0.0) > _HELD
-        )  # what is prescribed, or moves to second order alone, cannot be small
+        # What is prescribed, or moves to second order alone, cannot be small.
+        free = np.abs(rates).max(axis=1, initial=0.0) > _HELD
         named = zip(checker.sampler.names, places.tolist(), free, strict=True)
         near = tuple((f"({spell(name)}) - ({q!r})", SMALL) for name, q, moves in named if moves)
         return replace(given, small=(*given.small, *near))
@@ -133,9 +132,8 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     vanishing = _meant(f"({left}) - ({right})", checker, declared)
     if found := _NO_FORCE.fullmatch(vanishing):
         checker.sampler.require_touch([found[1]])
-    if _are_moving_angles(left, right, checker, declared) or _goes_round(
-        left, checker, declared
-    ):  # a whole turn makes no difference
+    # A whole turn makes no difference.
+    if _are_moving_angles(left, right, checker, declared) or _goes_round(left, checker, declared):
         vanishing = f"sin(({vanishing})/2)"
     asks_past = "⟦" in vanishing or OF_TIME.search(vanishing)
     since = given.since or ("start" if asks_past else "")

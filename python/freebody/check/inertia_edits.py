@@ -8,7 +8,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, PER_SECOND, TIME
+from freebody.symbolic.dimensions import ACCELERATION, INERTIA, LENGTH, MASS, PER_SECOND, STIFFNESS, TIME
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym
 
@@ -28,8 +28,6 @@ _MOST_ARMS = 8
 _MOST_SHARING = 12
 _MOST_INERTIAS = 40
 _SAME = 1e-8  # relative: below it two values are one
-STIFFNESS = MASS.times(TIME, -2)
-_ACCELERATION = LENGTH.times(TIME, -2)
 
 
 def about_another_point(required: RequiredTerm, terms: Monomials) -> Iterator[Node]:
@@ -72,7 +70,7 @@ def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, 
 def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Array]) -> tuple[list[Node], Array]:
     """What each body that turns with what moves adds to the mass, times its acceleration: J ẍ/r², and their values."""
     known = vocabulary
-    moves = [n for n in symbols_in(equation) if known.dimension(n) == _ACCELERATION and n not in known.parameters]
+    moves = [n for n in symbols_in(equation) if known.dimension(n) == ACCELERATION and n not in known.parameters]
     inertias, lengths = ([n for n in known.parameters if known.dimension(n) == its] for its in (INERTIA, LENGTH))
     found: list[Node] = [
         Quotient(product_of([J, a]), power_of(r, 2))

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, TIME
+from freebody.symbolic.dimensions import ACCELERATION, ENERGY, FORCE, INERTIA, LENGTH, MASS
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, unsigned, walk
 
@@ -66,7 +66,6 @@ _NEW = 0.15  # for any other quantity of which it did not speak, more for a forc
 _OTHER_LETTER = 0.2  # more, for a force or a moment in the place of one that differs by more than its index
 PARTNER = 0.15
 """By how much a centripetal term is likelier beside its own second derivative."""
-_ACCELERATION = LENGTH.times(TIME, -2)
 _SAME = 1e-9
 
 
@@ -188,7 +187,7 @@ class Likelihood:
         if one.shape == other.shape and np.allclose(one, other, rtol=_SAME, atol=0):
             return math.inf
         turns = known.dimension(old) == INERTIA  # its moment about another point may have a letter of its own
-        moves = known.dimension(old) == _ACCELERATION  # as it is prescribed
+        moves = known.dimension(old) == ACCELERATION  # as it is prescribed
         mixed = old in known.parameters and new not in known.parameters and not (turns or moves)
         unsaid = new in known.others and new not in self.its.said
         solved = any(side is old for side in self.its.sides)

@@ -39,9 +39,8 @@ class Marks:
         places = self._other if {n.key for n in symbols_in(equation)} - self._given else self._free
         found = self._residual(equation, places)
         defines = {*symbols_in(equation)} <= self._parameters
-        if (
-            (defines or self._at_start) and found and found.worst < HOLDS
-        ):  # what a parameter is, or a force at one instant, may be asked
+        # What a parameter is, or a force at one instant, may be asked.
+        if (defines or self._at_start) and found and found.worst < HOLDS:
             places, found = self._free, self._residual(equation, self._free)
         there = np.isfinite(found.ratio).all(axis=1) if found else np.zeros(0, dtype=bool)  # not every root has a value
         if found is None or not there.any() or np.all(np.abs(found.ratio[there]) < HOLDS):
@@ -50,9 +49,8 @@ class Marks:
         linear = (
             self._solved_for(key, equation, left, places) for key in self._candidates if key in known and self._is_linear(key)
         )
-        solved = next(
-            (each for each in linear if each is not None and np.abs(each[there]).max() > _NOTHING), None
-        )  # m (…) = 0 says m = 0
+        # m (…) = 0 says m = 0.
+        solved = next((each for each in linear if each is not None and np.abs(each[there]).max() > _NOTHING), None)
         if solved is None and left.shape[1] > 1:
             solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
         if solved is None:

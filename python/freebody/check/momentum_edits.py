@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from freebody.symbolic.dimensions import LENGTH, PER_SECOND, TIME
+from freebody.symbolic.dimensions import ACCELERATION, LENGTH, PER_SECOND, SPEED
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import ZERO, Add, Fn, Mul, Negative, Node, Num, Sym, addends, is_zero
 
@@ -17,7 +17,6 @@ from .language.statements import Equation
 from .powers import powers_of, written
 from .vocabulary import Vocabulary
 
-_SPEED, _GRAVITY = LENGTH.times(TIME, -1), LENGTH.times(TIME, -2)
 _PARTS = (1.0, 0.5)  # of a length, as an arm
 _HELD = 1e-9  # relative: below it a sum is 0
 _MOST_ARMS = 2  # momenta that have one, all lengths being tried for each
@@ -68,12 +67,12 @@ def _momentum(sign: int, term: Node, vocabulary: Vocabulary) -> _Momentum | None
     """Of a term that is a kinetic energy of one speed, or that of a fall, m g h, from which the speed is √(2 g h)."""
     number, powers = powers_of(term)
     of = {base: vocabulary.dimension(base) for base in powers if isinstance(base, Sym)}
-    speeds = [base for base, its in of.items() if powers[base] == 2 and its in (_SPEED, PER_SECOND)]
+    speeds = [base for base, its in of.items() if powers[base] == 2 and its in (SPEED, PER_SECOND)]
     if len(speeds) == 1:
         (speed,) = speeds
         return _Momentum(2 * sign * number, {**powers, speed: 1}, of[speed] == PER_SECOND)
     fall = [
-        next((base for base, its in of.items() if its == wanted and powers[base] == 1), None) for wanted in (_GRAVITY, LENGTH)
+        next((base for base, its in of.items() if its == wanted and powers[base] == 1), None) for wanted in (ACCELERATION, LENGTH)
     ]
     if speeds or None in fall or len(powers) != len(of):
         return None

@@ -233,9 +233,8 @@ class MotionSampler(FollowedModel):
         if fixed:
             return value
         low, high = _ANGLE_FACTOR if dimension == ANGLE else _LOOP_FACTOR if self.shapes_loop(name) else _FACTOR
-        if (
-            dimension == ANGLE and self.restricted and value % (math.pi / 2)
-        ):  # what leans to one side does so with other numbers, too
+        # What leans to one side does so with other numbers, too.
+        if dimension == ANGLE and self.restricted and value % (math.pi / 2):
             high = min(high, math.ceil(abs(value) / (math.pi / 2)) * (math.pi / 2) / abs(value))
         factor = (low * (high / low) ** size) ** (reach if value else 1.0)
         return value * factor if value else sign * factor * self.unit(dimension)
@@ -370,9 +369,8 @@ class MotionSampler(FollowedModel):
             state = self._at_moment(self.started(values))
         else:
             random = rng.random() < _ELSEWHERE
-            with_them = self._puts_in_place or (
-                reach < 1 and rng.random() < 0.5
-            )  # strings may be as long as they are at the start
+            # Strings may be as long as they are at the start.
+            with_them = self._puts_in_place or (reach < 1 and rng.random() < 0.5)
             own = self._at_moment(self.started(values)) if with_them else self.own
             q = own.q + reach * _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * random
             rates, there = self._rates(rng, family), self._named(own.u)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
-from freebody.symbolic.dimensions import FORCE, LENGTH, PER_SECOND, TIME
+from freebody.symbolic.dimensions import LENGTH, PER_SECOND, SPEED, STIFFNESS
 from freebody.symbolic.tree import Add, Negative, Node, Num, Pow, Quotient, Sym, addends, exchange, substitute, walk
 
 from .edits import Edit
@@ -23,7 +23,6 @@ _WAYS = (
     ("plus", lambda n: n, "absolute where it is relative"),
     ("minus", Negative, "relative where it is absolute"),
 )
-_SPEED, _STIFFNESS = LENGTH.times(TIME, -1), FORCE.times(LENGTH, -1)
 _MOMENTS = ("_1", "_2")
 
 
@@ -45,7 +44,7 @@ def seen_from_elsewhere(equation: Equation, vocabulary: Vocabulary) -> Iterator[
     yield from _of_one_alone(equation)
     yield from _of_turning_frames(equation, found, vocabulary)
     yield from _from_natural_length(equation, vocabulary)
-    stems = dict.fromkeys(n.name[:-2] for n in found if n.name.endswith(_MOMENTS) and vocabulary.dimension(n) == _SPEED)
+    stems = dict.fromkeys(n.name[:-2] for n in found if n.name.endswith(_MOMENTS) and vocabulary.dimension(n) == SPEED)
     speeds = {stem: [Sym(stem + index) for index in _MOMENTS] for stem in stems}
     for one, own in speeds.items():
         for two, others in speeds.items():
@@ -79,7 +78,7 @@ def _of_turning_frames(equation: Equation, found: Sequence[Sym], vocabulary: Voc
 def _from_natural_length(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     """Whole lengths for the extensions in elastic energies, on both sides: k r² for k (r − l)²."""
     lengths = [n for n, its in vocabulary.parameters.items() if its == LENGTH]
-    for stiffness in (n for n, its in vocabulary.parameters.items() if its == _STIFFNESS):
+    for stiffness in (n for n, its in vocabulary.parameters.items() if its == STIFFNESS):
         elastic = [term for side in (equation.left, equation.right) for _, term in addends(side) if stiffness in term.symbols]
         squared = (n for term in elastic for n in walk(term) if isinstance(n, Pow))
         squares = [n for n in squared if dimension(n.base, vocabulary.dimensions) == LENGTH and not isinstance(n.base, Add)]

@@ -8,7 +8,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from freebody.symbolic.dimensions import FORCE, LENGTH, TIME
+from freebody.symbolic.dimensions import ACCELERATION, FORCE, LENGTH, SPEED, TIME
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, unsigned
 
@@ -20,8 +20,8 @@ from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative: below it two values are one
-_OF_VECTORS = (LENGTH, LENGTH.times(TIME, -1), LENGTH.times(TIME, -2), FORCE, FORCE.times(TIME, 1))
-_OF_MOTION = (LENGTH.times(TIME, -1), FORCE.times(TIME, 1))
+_OF_VECTORS = (LENGTH, SPEED, ACCELERATION, FORCE, FORCE.times(TIME, 1))
+_OF_MOTION = (SPEED, FORCE.times(TIME, 1))
 _MOST_FACTORS = 6  # of a product of which some stand below a root
 _MOST_TERMS = 4  # of a sum that is that of two components
 

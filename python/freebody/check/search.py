@@ -364,12 +364,10 @@ class Search:
     def _confirmed(self, equation: Equation) -> bool:
         holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))
         reach = REACH * (self._least_share if self.family.small else 1.0)
-        held = self.family.held and unreached(
-            equation, self.values, reach=reach
-        )  # what is held at 0, or stays it, may hide what is wrong
-        if (
-            holds and self.family.small and not equation.symbols.isdisjoint(self.vocabulary.energies)
-        ):  # which all are 0 to first order
+        # What is held at 0, or stays it, may hide what is wrong.
+        held = self.family.held and unreached(equation, self.values, reach=reach)
+        # Energies are all 0 to first order.
+        if holds and self.family.small and not equation.symbols.isdisjoint(self.vocabulary.energies):
             with suppress(NoMotion):
                 holds = first_order(self.case, equation, self.family)
         return holds and not held and not (self.family.since and not all(map(self._moves, terms(equation))))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, PER_SECOND, SPEED
 from freebody.symbolic.tree import Add, Mul, Node, Num, Pow, Quotient, Sym, walk
 
 from .edits import Edit
@@ -86,7 +86,7 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
     its = dimension(term, vocabulary.dimensions)
     if its == LENGTH:
         return "a part of an arm"
-    if its in (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1)):
+    if its in (SPEED, PER_SECOND):
         return "a part of the speed"
     if its == MASS.times(LENGTH, 1):
         return "a mass times its arm"

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import combinations, permutations
+from itertools import combinations, islice, permutations
 from itertools import product as product_of
 
 import numpy as np
 
-from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import ACCELERATION, LENGTH, PER_SECOND, SPEED, Dimension
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, unsigned
 
@@ -26,8 +26,7 @@ from .vocabulary import Vocabulary
 
 _MOST_ANGLES = 8
 _NEARLY = 1e-5  # relative spread below which a factor is meant to be one number, or a sum what is needed
-_ACCELERATION = LENGTH.times(TIME, -2)
-_SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
+_SPEEDS = (SPEED, PER_SECOND)
 
 
 def _root(square: Node) -> Node | None:
@@ -36,11 +35,6 @@ def _root(square: Node) -> Node | None:
     if number <= 0 or any(power % 2 for power in powers.values()):
         return None
     return written(float(np.sqrt(number)), {n: power // 2 for n, power in powers.items()})
-
-
-def _times(both: Mul, call: Fn, sign: float) -> Node:
-    """A product with a sine or cosine, and a sign."""
-    return signed(sign, Mul((*both.factors, call)))
 
 
 @dataclass
@@ -56,7 +50,7 @@ class SquareEdits:
         component of an acceleration that lacks its centripetal part."""
         node, base = required.node, required.node.base if isinstance(required.node, Pow) else None
         its = None if base is None else dimension(base, self.vocabulary.dimensions)
-        if base is None or its not in (*_SPEEDS, _ACCELERATION, LENGTH) or node.exponent != Num(2.0) or required.needed.ndim != 1:
+        if base is None or its not in (*_SPEEDS, ACCELERATION, LENGTH) or node.exponent != Num(2.0) or required.needed.ndim != 1:
             return
         value, lost = sampled(base, self.values), required.missing
         if not np.isfinite(lost).all() or not lost.any():
@@ -114,9 +108,8 @@ class SquareEdits:
     def at_an_angle(self, node: Add, missing: Array) -> Iterator[Node]:
         """What the law of cosines has beside the squares of two speeds, of which the directions have an angle between them."""
         known = self.vocabulary
-        angles = [n for n in known.angles if n.key in self.values and not (n in known.others and n not in known.letters)][
-            :_MOST_ANGLES
-        ]
+        named = (n for n in known.angles if n.key in self.values and (n in known.letters or n not in known.others))
+        angles = [*islice(named, _MOST_ANGLES)]
         for pair in combinations(self._speeds_squared(node), 2):
             both = Mul((Num(2.0, "2"), *pair))
             cosine = missing / sampled(both, self.values)
@@ -129,7 +122,7 @@ class SquareEdits:
                     for name, sign in product_of(("cos", "sin"), (1.0, -1.0)):
                         call = Fn(name, (angle,))
                         if np.abs(sign * sampled(call, self.values) - cosine).max() <= _NEARLY:
-                            yield _times(both, call, sign)
+                            yield signed(sign, Mul((*both.factors, call)))
 
     def of_components(
         self,
@@ -181,7 +174,7 @@ class SquareEdits:
             self._lengths
             if its == LENGTH
             else self._parts_of_accelerations
-            if its == _ACCELERATION
+            if its == ACCELERATION
             else self._parts_of_speeds(its)
         )
 

@@ -52,8 +52,8 @@ def steady_state(model: AskedModel, rng: np.random.Generator, values: Mapping[st
 
 
 def _settled(model: AskedModel, state: State) -> State | None:
-    """The state near one in which directions on which accelerations depend by the place have no acceleration, and none but that rate by which
-    they keep up with what is prescribed, and those on which they depend by the rate have no acceleration; None where there is none."""
+    """The steady state near one; None where there is none. In it no direction accelerates on which accelerations depend, by place or by
+    rate; those on which they depend by place move only as they keep up with what is prescribed."""
     which = independent(model.free_rates)
     names, n = [model.names[i] for i in which], len(model.names)
     if not names:
@@ -61,8 +61,8 @@ def _settled(model: AskedModel, state: State) -> State | None:
     falls, sizes = [f"accel({quote(name)})" for name in names], model.sizes[which]
 
     def parts(state: State) -> tuple[Array, Array, Array, Array, Array]:
-        """How all coordinates move with those, accelerations, by which places and rates of those they change, and how they do as all moves on,
-        in units."""
+        """In units typical of the model: the rates of all coordinates for unit rates of those that are free; the accelerations; their slopes
+        by places and by rates of those; and how fast they change as all places move on."""
         free = model.rates_free_in(model.core.free_bodies(state))
         carried, units = free @ np.linalg.pinv(free[which]), model.rate**2 * sizes
         read = model.core.derivatives(falls, state)[:, 1 : 1 + 2 * n] * np.tile(model.sizes, 2) / units[:, None]

@@ -47,9 +47,10 @@ class SumEdits:
         for place in np.flatnonzero(np.abs(off).max(axis=1, initial=0.0) <= _SAME * np.abs(needed).max()).tolist():
             a, b = pairs[place]
             its, fixed = self.vocabulary.dimension(own), [n in self.vocabulary.parameters for n in (a, unsigned(b))]
+            # No g + ÿ.
             if (own in (a, unsigned(b)) or (its == LENGTH and all(fixed))) and (
                 its in (LENGTH, NUMBER_ONLY) or all(fixed) or not any(fixed)
-            ):  # no g + ÿ
+            ):
                 found = Add((a, b), span=node.span)
                 size = 0.2 if own in self.vocabulary.parameters else 0.0 if isinstance(node, Mul) else 0.1
                 yield Pow(found, node.exponent) if isinstance(node, Pow) else found, size

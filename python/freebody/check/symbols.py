@@ -14,7 +14,7 @@ from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest, replace_names, spell
 from freebody.model.writer import Writer
 from freebody.run.records import quote
-from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, PER_SECOND, TIME, Dimension
+from freebody.symbolic.dimensions import ACCELERATION, ANGLE, LENGTH, NUMBER_ONLY, PER_SECOND, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Num, Sym, Unit, exchange, substitute, walk
@@ -90,7 +90,7 @@ class Symbols:
         self.spec, self.start = lowered.spec, lowered.start
         self.named = meanings.meanings(lowered.root)
         if gravity is not None:
-            self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
+            self.named.values.setdefault(gravity, ("parameter", ACCELERATION))
         self.writer = Writer(lowered.root, self.named, {})
         self.metadata = mechanism.source().metadata
         self.bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
@@ -241,7 +241,7 @@ class Symbols:
         x, y = self.spec["gravity"] or (None, None)
         if gravity or x == 0:  # it points down
             down = gravity or (repr(-y) if isinstance(y, int | float) else f"-({y})")
-            out.setdefault("g", Meaning("gravity", (down,), LENGTH.times(TIME, -2)))
+            out.setdefault("g", Meaning("gravity", (down,), ACCELERATION))
         for name, texts in _DIRECTIONS.items():
             out.setdefault(name, Meaning("direction", texts, NUMBER_ONLY))
         for name, meaning in self._reactions().items():

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME, Known
+from freebody.symbolic.dimensions import ACCELERATION, ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME, Known
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Add, Fn, Mul, Node, Pow, Quotient, Sym, unsigned, walk
 
@@ -20,7 +20,6 @@ from .vocabulary import Vocabulary
 
 _OF_RODS = (1 / 12, 1 / 6, 1 / 3, 2 / 3)
 _OF_BALLS = (2 / 5, 2 / 7, 5 / 7, 7 / 5)
-_ACCELERATION = LENGTH.times(TIME, -2)
 _SAME = 1e-9
 
 
@@ -40,7 +39,7 @@ class Traits:
         weights = (
             factors
             for factors in products
-            if any(self.vocabulary.dimension(f) == _ACCELERATION for f in factors if isinstance(f, Sym))
+            if any(self.vocabulary.dimension(f) == ACCELERATION for f in factors if isinstance(f, Sym))
         )
         return any(isinstance(f, Add) and any(term is mass for term in f.terms) for factors in weights for f in factors)
 
@@ -97,7 +96,7 @@ class Traits:
         for term in self.expanded:
             masses = [n for n in term.symbols if known.dimension(n) == MASS]
             together.update(
-                n for n in term.symbols if masses and known.dimension(n) == _ACCELERATION and n not in known.parameters
+                n for n in term.symbols if masses and known.dimension(n) == ACCELERATION and n not in known.parameters
             )
         return not self.has_load and max(together.values(), default=0) > 1
 
@@ -171,7 +170,7 @@ class Traits:
             return any(np.isfinite(r).all() and np.ptp(r) <= _SAME * np.abs(r).max() for r in ratios)
 
     def is_acceleration(self, symbol: Sym) -> bool:
-        return self.vocabulary.dimension(symbol) in (_ACCELERATION, NUMBER_ONLY.times(TIME, -2))
+        return self.vocabulary.dimension(symbol) in (ACCELERATION, NUMBER_ONLY.times(TIME, -2))
 
     @cached_property
     def has_energy(self) -> bool:
@@ -198,7 +197,7 @@ class Traits:
         if not np.isclose(abs(number), _OF_RODS).any():
             return False
         factors = [n for n in powers if isinstance(n, Sym)]
-        moves = any(n.dots == 2 or self.vocabulary.dimension(n) == _ACCELERATION for n in factors)
+        moves = any(n.dots == 2 or self.vocabulary.dimension(n) == ACCELERATION for n in factors)
         lengths = any(self.vocabulary.dimension(n) == LENGTH for n in factors)
         return moves and not lengths and not any(n in self.vocabulary.angular for base in powers for n in base.symbols)
 
@@ -213,7 +212,7 @@ class Traits:
         known, factors = self.vocabulary, [n for n in powers if isinstance(n, Sym)]
         powers = {n: power for n, power in powers.items() if not isinstance(n, Fn)}
         masses = [n for n in factors if known.dimension(n) == MASS]
-        moves = [n for n in factors if known.dimension(n) == _ACCELERATION]
+        moves = [n for n in factors if known.dimension(n) == ACCELERATION]
         alone = len(factors) == 1 and known.dimension(factors[0]) == FORCE
         return abs(number) == 1 and len(factors) == len(powers) and (alone or len(masses) == len(moves) == len(factors) / 2 == 1)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from freebody.core.compiled import BEFORE
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell, suggestion
-from freebody.symbolic.dimensions import ANGLE, ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import ACCELERATION, ANGLE, ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, SPEED, TIME, Dimension
 
 from .rates import derivative
 
@@ -86,7 +86,7 @@ class RadiusOfGyration(OfBodies):
         return np.sqrt(super().value(dots, values, masses) / masses()[self.bodies[0]][0])
 
 
-_KINDS = {"position": ("x", LENGTH), "velocity": ("vx", LENGTH.times(TIME, -1)), "acceleration": ("ax", LENGTH.times(TIME, -2))}
+_KINDS = {"position": ("x", LENGTH), "velocity": ("vx", SPEED), "acceleration": ("ax", ACCELERATION)}
 _AT_MOMENT = re.compile(r"(.+?)\s*@\s*(.+)")
 _POINT = r"(\S+)"
 _PLACE = re.compile(rf"(position|velocity|acceleration) of {_POINT}(?: (?:from|relative to) {_POINT})?")

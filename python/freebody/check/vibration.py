@@ -16,7 +16,7 @@ from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent
 from freebody.stability.equilibria import Equilibrium, equilibria, newton_step, rest_near
 from freebody.stability.state_space import SingularConfiguration
-from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, PER_SECOND, TIME, Dimension
 from freebody.symbolic.symbols import folded
 
 from .arrangement import arranged
@@ -106,7 +106,7 @@ class Vibration:
         named = {folded(name): name for name in asked}
         known = _QUANTITIES | (_WITH_INDEX if self.alone else {}) | self.forced
         found = {named[folded(name)]: what for name, what in known.items() if folded(name) in named}
-        per_second, second = NUMBER_ONLY.times(TIME, -1), NUMBER_ONLY.times(TIME, 1)
+        per_second, second = PER_SECOND, NUMBER_ONLY.times(TIME, 1)
         dimensions: dict[str, Dimension] = {"period": second, "damped period": second, "damping ratio": NUMBER_ONLY}
         if its := self.sampler.start.parameters.get(_DAMPING):
             dimensions["critical damping"] = its

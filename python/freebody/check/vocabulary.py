@@ -9,14 +9,13 @@ from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from itertools import combinations, combinations_with_replacement, islice, permutations, product
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension, Known
+from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, NUMBER_ONLY, SPEED, TIME, Dimension, Known
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym
 
 _DEGREE = 4  # of the product of parameters in a term: m l² has three, m l r g four
 _MOST = 400  # products, each with all its sines and cosines
 _OF_POWER = -3  # of time in the dimension of a power
 _BLIND_DEGREE = 3  # where dimensions do not thin them out
-_SPEED = LENGTH.times(TIME, -1)
 _MOST_SPEEDS = 4  # letters of speeds, of which ratios are thought of
 
 
@@ -93,11 +92,10 @@ class Vocabulary:
         shares = [n for n, its in self.parameters.items() if its == NUMBER_ONLY and n not in self.angular]
         sums = [Add((Num(1.0, "1"), share)) for n in shares for share in (n, Negative(n))]
         sums += [Add((Num(1.0, "1"), sign(Fn("cos", (angle,))))) for angle in self.angles for sign in (lambda n: n, Negative)]
-        speeds = [n for n in self.letters if n in self.others and self.is_rate(n) and self.dimension(n) == _SPEED]
+        speeds = [n for n in self.letters if n in self.others and self.is_rate(n) and self.dimension(n) == SPEED]
         speeds = sorted((n for n in speeds if not n.name.endswith(("_1", "_2"))), key=lambda n: n.name)[:_MOST_SPEEDS]
-        sums += [
-            Quotient(*pair) for pair in permutations(speeds, 2)
-        ]  # of what rubs along its velocity, not of two bodies or moments
+        # Friction along a velocity has such ratios; speeds of two bodies or moments have none.
+        sums += [Quotient(*pair) for pair in permutations(speeds, 2)]
         return [*apart, *squares, *(_square(Add((a, Negative(b)))) for a, b in rates), *(Mul(pair) for pair in rates), *sums]
 
     # -- terms

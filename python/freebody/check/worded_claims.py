@@ -180,10 +180,10 @@ def _described(checker: Checker, declared: Declared, given: Family, words: str, 
     begins_so = not given.since and sampler.are_above(given.above, soon)
     if not verdict.ok and begins_so and _judged_at(checker, declared, ("", "", ""), statement, False).ok:
         return None
-    goes_later = given.above != checker.hypothesis.above and not (
-        given.since or begins_so
-    )  # that way, after something that happens
-    return (not verdict.ok and goes_later and on_later_stretch(checker, declared, words, statement)) or verdict
+    has_a_way = given.above != checker.hypothesis.above
+    if verdict.ok or not has_a_way or given.since or begins_so:
+        return verdict
+    return on_later_stretch(checker, declared, words, statement) or verdict  # it moves that way after something that happens
 
 
 def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, statement: str, problem: ModelProblem) -> Verdict:

@@ -83,6 +83,7 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     stand in K with the slopes of their directions, −Σ λ ∂²g/∂q². With Lᵀ B = 0 for the directions B of the reactions (L = N where
     they do no work) the equations are Lᵀ (M N z̈ + C N ż + K N z) = 0. Raises ``TooLarge``, ``Singular``."""
     names, nomenclature = found.coordinates, subject.nomenclature
+    # Laws of places and rates leave these free.
     laws = [
         row
         for row in replace(subject, at_rest=False).rows
@@ -90,7 +91,7 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
         and row.value is None
         and row.rate is None
         and any(x.name in names for x in symbols(row.linear.rest))
-    ]  # of places and rates, which they so leave free
+    ]
     holding = [row for row in subject.rows if row.name not in {law.name for law in laws}]
     slopes = [[_put(row.linear.coefficients.get(Sym(name, 2), ZERO), put) for name in names] for row in holding]
     loads = [Sym(load.symbol) for load in subject.free.loads if load.unknown]

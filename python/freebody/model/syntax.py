@@ -35,9 +35,8 @@ class Expression:
     def show(self, tree: Node) -> str:
         """A part as it is written."""
         (start, end), text = tree.span, self.text.encode()
-        while text.count(b")", start, end) > text.count(
-            b"(", start, end
-        ):  # a product begins behind the bracket of its first factor
+        # A product begins behind the bracket of its first factor.
+        while text.count(b")", start, end) > text.count(b"(", start, end):
             start = text.rindex(b"(", 0, start)
         while text.count(b"(", start, end) > text.count(b")", start, end):
             end = text.index(b")", end) + 1

@@ -115,9 +115,8 @@ class Closing:
         self.core, self.beginning = source, state
         self.state = state if p is None else replace(state, p=p)
         motions = [{**motion, "level": "acceleration"} for motion in source.spec.get("motions", [])]
-        self.loose = (
-            CompiledModel.of({**source.spec, "motions": motions}) if motions else source
-        )  # motions do not say where it is
+        # Motions do not say where it is.
+        self.loose = CompiledModel.of({**source.spec, "motions": motions}) if motions else source
         self.names = source.coordinate_names
         limits, held = [limit["name"] for limit in source.metadata["limits"]], []
         for name in dict.fromkeys(row.name for row in first.rows if row.name in limits):

@@ -78,7 +78,7 @@ NUMBER_ONLY = Dimension()
 ANGLE = Dimension(angle=1)
 LENGTH, MASS, TIME = Dimension(1), Dimension(0, 1), Dimension(0, 0, 1)
 FORCE, ENERGY, INERTIA = Dimension(1, 1, -2), Dimension(2, 1, -2), Dimension(2, 1)
-PER_SECOND = Dimension(time=-1)
+SPEED, ACCELERATION, PER_SECOND, STIFFNESS = Dimension(1, 0, -1), Dimension(1, 0, -2), Dimension(time=-1), Dimension(0, 1, -2)
 
 _KNOWN = [
     (NUMBER_ONLY, "", "a plain number"),

@@ -13,8 +13,9 @@ pub struct ContactDecision {
     pub modes: Vec<ContactMode>,
     /// Of each whether something that decides was too small to be sure of.
     pub doubtful: Vec<bool>,
-    /// By which forces, free accelerations and laws of friction.
+    /// The forces and accelerations that decide it.
     answer: Answer,
+    /// The accelerations without contact forces and the laws of friction, with which they were found.
     free: Vec<f64>,
     friction: Vec<FrictionLaw>,
 }

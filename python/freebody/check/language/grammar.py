@@ -379,9 +379,8 @@ class Line:
         stops = {t.span[1] for t in self.row}
         while found := _UNIT_PIECE.match(self.text, at):
             is_known = lambda name: self.names.find(folded(name)) is not None
-            is_product = (word := found["word"]) not in units.COMMON or (
-                word == "mg" and not common
-            )  # 2md is no day, 2mg no mass
+            # 2md is no day, 2mg no mass.
+            is_product = (word := found["word"]) not in units.COMMON or (word == "mg" and not common)
             named = is_known(word) or (is_product and all(map(is_known, word)))
             known = named and not (common and found["word"] in units.COMMON)
             if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
